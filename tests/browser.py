@@ -1,8 +1,6 @@
 """A headless Chromium, driven over its DevTools pipe: pages, and what goes wrong in
 them."""
 
-from __future__ import annotations
-
 import base64
 import fcntl
 import json

@@ -1,7 +1,5 @@
 """The words of a PDF, page by page."""
 
-from __future__ import annotations
-
 import re
 from io import BytesIO
 

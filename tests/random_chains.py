@@ -1,8 +1,6 @@
 """Random chains far from the paper's, by number: `trial(7)` is always the same chain
 and start."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,11 +1,10 @@
 """The configuration of the workflow, as Snakemake puts it together."""
 
-from pathlib import Path
+from places import ROOT
 
 from maegawa2010.config import read_file
 from maegawa2010.scenes import scene_slider
 
-ROOT = Path(__file__).parents[1]
 STUDIES = read_file(ROOT / "workflow/studies.yaml")
 FULL = read_file(ROOT / "workflow/full.yaml")
 CONFIG = {**STUDIES, **read_file(ROOT / "config.yaml")}

@@ -1,7 +1,5 @@
 """A copy of the workflow to try things on, and Snakemake run in it."""
 
-from __future__ import annotations
-
 import importlib
 import multiprocessing
 import os
@@ -15,6 +13,7 @@ from functools import cache
 from pathlib import Path
 
 import snakemake.cli
+from places import ROOT
 
 from maegawa2010.support.digest import digest_code
 
@@ -31,8 +30,6 @@ for module in (
 ):
     importlib.import_module(module)
 snakemake.cli.get_argument_parser()
-
-ROOT = Path(__file__).parents[1]
 
 
 @dataclass(frozen=True)

@@ -1,11 +1,10 @@
 """The errors that a run predicts are compared with the proof: they are never too small,
 and not useless."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from chains import SLIDER, first_transitions
+from places import CERTIFICATES
 from settings import CONFIG
 
 from maegawa2010.studies.horizon.tables import summary, validate
@@ -19,8 +18,6 @@ from precursors.analysis.horizon import (
 )
 from precursors.proof import Certificate, ExactChain
 
-ROOT = Path(__file__).parents[2]
-CERTIFICATES = ROOT / "src/precursors/benchmark/certificates"
 CHAINS = CONFIG["horizon"]["proved"]
 TOLERANCES = [1e-15, 1e-13, 1e-11, 1e-9, 1e-7, 1e-5]  # s
 # An actual error may be so many times the one predicted: 0.7 is the largest known.

@@ -1,7 +1,5 @@
 """Transitions of a run that nobody computed, and proofs that are made step by step."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import cache

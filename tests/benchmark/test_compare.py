@@ -1,7 +1,5 @@
 """A run is compared with the truth transition by transition."""
 
-from __future__ import annotations
-
 import math
 from fractions import Fraction
 

@@ -1,7 +1,5 @@
 """Result files are scored against the proved lists; wrong ones are told in a line."""
 
-from __future__ import annotations
-
 import re
 from functools import cache
 from itertools import pairwise

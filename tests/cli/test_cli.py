@@ -18,6 +18,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 from matplotlib.text import Text
+from places import ROOT
 
 from precursors import Chain, Run, find_slips, simulate
 from precursors.analysis.slips import OF_SLIDER, slip_table
@@ -106,11 +107,10 @@ def test_the_examples_of_the_help_are_read(example):
 
 def test_the_version_is_told_with_the_commit_of_a_checkout(cli, monkeypatch):
     state = {"commit": "abc", "swh_revision": "rev", "swh_directory": "dir"}
-    root = Path(__file__).parents[2]
     monkeypatch.setattr(
         commands,
         "git_state",
-        lambda place: state | {"changed": True} if place == root else None,
+        lambda place: state | {"changed": True} if place == ROOT else None,
     )
     told = f"precursors {version('precursors')}\ncommit abc, and files have changed since\n"
     assert cli("--version") == (0, f"{told}rev\ndir\n", "")

@@ -5,8 +5,6 @@ local ones.
 collect.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

@@ -1,8 +1,6 @@
 """A SLURM of one node in a directory of its own, started and stopped again without a
 trace elsewhere."""
 
-from __future__ import annotations
-
 import getpass
 import os
 import secrets

@@ -1,14 +1,11 @@
 """The page that the build wrote, and its picture for README."""
 
-from __future__ import annotations
-
 import hashlib
 import zlib
-from pathlib import Path
 
 from browser import browser, find_browser
+from places import ROOT
 
-ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "src/maegawa2010/explorer"
 PAGE = ROOT / "results/explorer.html"
 PICTURE = ROOT / "docs/explorer.png"

@@ -7,18 +7,17 @@ from pathlib import Path
 from time import perf_counter
 
 import numpy as np
-import pandas as pd
 import pytest
 from colours import SIGHTS, TOLD_APART, alike, in_cielab
 from explorer.example import (
     LAPTOP,
     PICTURE,
-    ROOT,
     SETTLED,
     SOURCE,
     TOLERANCE,
     drawn_from,
 )
+from places import committed, made
 
 from precursors import Chain, apparent_friction, cli, simulate, slip_table, summarise
 from precursors.analysis.horizon import horizon
@@ -225,10 +224,6 @@ def test_from_where_the_library_calls_a_run_unpredictable_the_page_is_grey(
     assert is_grey == (answer == "lost") == ("one draw" in trust)
 
 
-def table(name):
-    return pd.read_csv(ROOT / f"results/tables/{name}.csv")
-
-
 def test_the_steps_tell_the_numbers_of_the_tables(page, file):
     """Words of the event that is shown follow it."""
     open_explorer(page, file)
@@ -236,13 +231,13 @@ def test_the_steps_tell_the_numbers_of_the_tables(page, file):
         page.evaluate(f"goToStep({step}), plain(shown['step-{step}'])")
         for step in range(1, 7)
     )
-    studies = table("digits").set_index(["scene", "quantity", "question"])["share"]
+    studies = made("digits").set_index(["scene", "quantity", "question"])["share"]
     in_band = [100 * studies[scene, "mu_sapp", "as_printed"] for scene in SCENES]
-    full = pd.read_csv(ROOT / "paper/tables/resolution_full.csv")
+    full = committed("resolution_full")
     medians = full.query("quantity == 'mu_sapp'").pivot_table(
         index="scene", columns="n_blocks", values="q50"
     )
-    means = table("measures").set_index("scene")["mean"]
+    means = made("measures").set_index("scene")["mean"]
     for values, digits, end in (
         (in_band, 0, " % have the printed"),
         (medians.loc[SCENES, 10], 3, " with 10 blocks"),

@@ -1,27 +1,18 @@
 """Figures of a run, drawn from small tables."""
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import numpy as np
 import pandas as pd
-from golden.kept import GOLDEN
+from places import GOLDEN, committed
 
 from maegawa2010.studies.larger import figure as larger
 from precursors.figures import precursor_lengths, scene, style
 
-COMMITTED = GOLDEN.parents[1] / "paper/tables"
 # As a journal wants it: one column, large letters, a font whose symbols differ.
 NARROW = style.Look(85.0, 9.0, "DejaVu Serif")
 
 
-def read(path: Path) -> pd.DataFrame:
-    return pd.read_csv(path)
-
-
 def slips(name: str = "fig10", **columns: object) -> pd.DataFrame:
-    return read(GOLDEN / f"{name}_slips.csv").assign(**columns)
+    return pd.read_csv(GOLDEN / f"{name}_slips.csv").assign(**columns)
 
 
 def trace(events: pd.DataFrame, duration: float = 10.0) -> pd.DataFrame:
@@ -111,5 +102,5 @@ PICTURES = {
     "scene_partial": partial_scene,
     "scene_calm": lambda: draw_scene(slips().iloc[:0], look=style.Look(85.0)),
     "precursor_lengths_others": (other_lengths, NARROW),
-    "larger": lambda: larger.draw(read(COMMITTED / "larger_settled_full.csv")),
+    "larger": lambda: larger.draw(committed("larger_settled_full")),
 }

@@ -1,8 +1,6 @@
 """Files of figures are the same bytes each time; looks and orders that must agree
 do."""
 
-from __future__ import annotations
-
 from io import BytesIO
 
 import matplotlib

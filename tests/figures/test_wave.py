@@ -1,18 +1,15 @@
 """The movie shows what the run does."""
 
-from __future__ import annotations
-
-from pathlib import Path
 from xml.etree import ElementTree
 
 import numpy as np
 import pandas as pd
 import pytest
+from places import GOLDEN, RESULTS
 
 from precursors import Chain, plot, simulate
 from precursors.figures import style, wave
 
-ROOT = Path(__file__).parents[2]
 SVG = f"{{{wave.XMLNS}}}"
 # Coordinates are written with one digit.
 PIXELS = 0.06
@@ -40,9 +37,9 @@ def drawn(**columns) -> ElementTree.Element:
 
 
 def test_the_kept_picture_is_that_of_the_run():
-    kept = ROOT / "tests/golden/wave.svg"
-    made = ROOT / "results/figures/wave.svg"
-    assert kept.read_text("utf-8") == made.read_text("utf-8")
+    kept = GOLDEN / "wave.svg"
+    drawn = RESULTS / "figures/wave.svg"
+    assert kept.read_text("utf-8") == drawn.read_text("utf-8")
     assert kept.stat().st_size < 400_000
 
 

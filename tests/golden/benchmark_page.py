@@ -1,11 +1,10 @@
 """The table of results in docs/benchmark.md, from results/tables/benchmark.csv."""
 
 import re
-from pathlib import Path
 
 import pandas as pd
+from places import ROOT
 
-ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "docs/benchmark.md"
 PROBLEMS = (
     "trailing",

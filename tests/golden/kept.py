@@ -1,22 +1,21 @@
 """Small pictures that are kept: a test file has those of its subject in PICTURES."""
 
-from __future__ import annotations
-
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 from unittest import mock
 
+from places import GOLDEN, ROOT
+
 from precursors.figures import style
 
-GOLDEN = Path(__file__).parent
 SMALL = GOLDEN / "small"
 
 
 def pictures() -> dict[str, Any]:
     """All pictures that test files keep, by name."""
     found: dict[str, Any] = {}
-    for file in sorted(GOLDEN.parent.glob("*/test_*.py")):
+    for file in sorted((ROOT / "tests").glob("*/test_*.py")):
         if "\nPICTURES = {" in file.read_text(encoding="utf-8"):
             module = import_module(f"{file.parent.name}.{file.stem}")
             found |= module.PICTURES

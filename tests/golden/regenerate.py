@@ -3,16 +3,14 @@ what changed."""
 
 import shutil
 import sys
-from pathlib import Path
 
 from explorer import example
 from golden import benchmark_page
 from golden.kept import SMALL, pictures, write_picture
+from places import GOLDEN, RESULTS, ROOT, made
 
-from precursors.support.files import read_table, write_whole
+from precursors.support.files import write_whole
 
-GOLDEN = Path(__file__).parent
-ROOT = GOLDEN.parents[1]
 PAPERS_SCENES = ("fig10", "fig11", "fig12")
 TABLES = (
     *(f"{scene}_slips.csv" for scene in PAPERS_SCENES),
@@ -33,22 +31,22 @@ BUILT = {
 }
 
 
-def main(results: Path) -> None:
-    """Copy golden files from `results`, and make the small ones."""
+def main() -> None:
+    """Copy golden files from results/, and make the small ones."""
     for kind, names in (("tables", TABLES), ("figures", FIGURES)):
         for name in names:
-            shutil.copyfile(results / kind / name, GOLDEN / name)
-    shutil.copyfile(results / "figures/wave.svg", GOLDEN / "wave.svg")
-    benchmark_page.write(read_table(results / "tables/benchmark.csv"))
+            shutil.copyfile(RESULTS / kind / name, GOLDEN / name)
+    shutil.copyfile(RESULTS / "figures/wave.svg", GOLDEN / "wave.svg")
+    benchmark_page.write(made("benchmark"))
     for name, how in pictures().items():
         write_picture(SMALL / f"{name}.png", how)
     write_whole(example.PICTURE, example.picture())
     for name, kept in BUILT.items():
-        shutil.copyfile(results / name, ROOT / kept)
+        shutil.copyfile(RESULTS / name, ROOT / kept)
 
 
 if __name__ == "__main__":
     try:
-        main(Path("results"))
+        main()
     except OSError as error:
         sys.exit(f"golden files: {error}")

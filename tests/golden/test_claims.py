@@ -1,36 +1,25 @@
 """The verdicts on the existing results are the golden ones, and a falsified result
 changes them."""
 
-from __future__ import annotations
-
 import json
 import os
 import re
 import shutil
-from pathlib import Path
 
 import check_claims
 import pandas as pd
 import pytest
-from golden.regenerate import GOLDEN
+from places import GOLDEN, RESULTS, made
 
 from maegawa2010.paper.claims import claims_tables
 from maegawa2010.paper.inputs import CLAIM_TABLES, POINT_TABLES
 from maegawa2010.support.provenance import checksums
 from precursors.support.files import read_table
 
-RESULTS = Path(__file__).parents[2] / "results/tables"
+TABLES = RESULTS / "tables"
 # Lyapunov exponents differ from one processor to another: the verdict stays.
 VARY = "chaos"
 NUMBERS = ["expected", "ours"]
-
-
-@pytest.fixture(scope="module")
-def true() -> dict[str, pd.DataFrame]:
-    return {
-        name: read_table(RESULTS / f"{name}.csv")
-        for name in {*CLAIM_TABLES, *POINT_TABLES}
-    }
 
 
 def without_exponents(claims: pd.DataFrame) -> pd.DataFrame:
@@ -40,13 +29,14 @@ def without_exponents(claims: pd.DataFrame) -> pd.DataFrame:
     return found
 
 
-def test_claims_and_open_points_are_the_golden_ones(true, tmp_path):
-    for name, table in claims_tables(true).items():
+def test_claims_and_open_points_are_the_golden_ones(tmp_path):
+    tables = {name: made(name) for name in {*CLAIM_TABLES, *POINT_TABLES}}
+    for name, table in claims_tables(tables).items():
         table.to_csv(tmp_path / f"{name}.csv", index=False)
-        found, made, kept = (
-            read_table(where / f"{name}.csv") for where in (tmp_path, RESULTS, GOLDEN)
+        found, there, kept = (
+            read_table(where / f"{name}.csv") for where in (tmp_path, TABLES, GOLDEN)
         )
-        pd.testing.assert_frame_equal(found, made)
+        pd.testing.assert_frame_equal(found, there)
         if name == "claims":
             found, kept = map(without_exponents, (found, kept))
         pd.testing.assert_frame_equal(found, kept)
@@ -55,9 +45,9 @@ def test_claims_and_open_points_are_the_golden_ones(true, tmp_path):
 def test_the_check_prints_every_claim_and_the_totals_and_fails_if_a_verdict_is_another(
     tmp_path, capsys
 ):
-    check_claims.main(RESULTS)
+    check_claims.main(TABLES)
     told = capsys.readouterr().out
-    claims = pd.read_csv(RESULTS / "claims.csv").to_dict("records")
+    claims = made("claims").to_dict("records")
     for claim, block in zip(claims, told.split("\n    [")[1:], strict=True):
         assert block.startswith(f"{claim['claim']}]  {claim['section']}\n")
         words = " ".join(block.split())
@@ -72,8 +62,8 @@ def test_the_check_prints_every_claim_and_the_totals_and_fails_if_a_verdict_is_a
     with pytest.raises(SystemExit, match=r"_slips\.csv is missing: run make all"):
         check_claims.main(tmp_path)
     for name in CLAIM_TABLES:
-        shutil.copy(RESULTS / f"{name}.csv", tmp_path)
-    lyapunov = pd.read_csv(tmp_path / "lyapunov.csv")
+        shutil.copy(TABLES / f"{name}.csv", tmp_path)
+    lyapunov = made("lyapunov")
     lyapunov.assign(exponent_per_s=-lyapunov["exponent_per_s"]).to_csv(
         tmp_path / "lyapunov.csv", index=False
     )
@@ -85,19 +75,19 @@ def test_the_check_names_a_result_that_changed_on_disk_with_its_time_kept(tmp_pa
     (tmp_path / "tables").mkdir()
     table = tmp_path / "tables/a.csv"
     table.write_text("1\n")
-    made = {"outputs": checksums([table, tmp_path / "away"], tmp_path)}
-    assert check_claims.changed(tmp_path, made["outputs"]) == []
+    told = checksums([table, tmp_path / "away"], tmp_path)
+    assert check_claims.changed(tmp_path, told) == []
     times = table.stat().st_atime_ns, table.stat().st_mtime_ns
     table.write_text("2\n")
     os.utime(table, ns=times)
-    assert check_claims.changed(tmp_path, made["outputs"]) == [
+    assert check_claims.changed(tmp_path, told) == [
         f"{table} is not as it was made: delete it, and run make all"
     ]
 
 
 def test_results_of_another_slider_are_compared_with_nothing(tmp_path):
-    made = json.loads((RESULTS.parent / "provenance.json").read_text())
-    made["config"]["chain"]["mu_k"] = 0.46
-    (tmp_path / "provenance.json").write_text(json.dumps(made))
+    told = json.loads((RESULTS / "provenance.json").read_text())
+    told["config"]["chain"]["mu_k"] = 0.46
+    (tmp_path / "provenance.json").write_text(json.dumps(told))
     with pytest.raises(SystemExit, match="is not the paper's: nothing to compare"):
         check_claims.main(tmp_path / "tables")

@@ -1,8 +1,7 @@
 """The committed table of a long study: its short rows are computed again."""
 
-from pathlib import Path
-
 import pandas as pd
+from places import committed
 from settings import CONFIG, FULL, SLIDERS
 
 from maegawa2010.studies.members import noise_table, run_members
@@ -11,12 +10,6 @@ from maegawa2010.studies.resolution.tables import (
     QUANTITIES,
     resolution_study,
 )
-
-ROOT = Path(__file__).parents[2]
-
-
-def committed(name: str) -> pd.DataFrame:
-    return pd.read_csv(ROOT / f"paper/tables/{name}.csv")
 
 
 def test_medians_with_twenty_blocks_are_those_of_the_library():

@@ -1,20 +1,16 @@
 """Tables and figures that the workflow wrote to results are those kept here (`make
 golden` replaces them)."""
 
-from __future__ import annotations
-
 import re
 import shutil
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
-from golden.regenerate import BUILT, FIGURES, GOLDEN, PAPERS_SCENES, ROOT
+from golden.regenerate import BUILT, FIGURES, PAPERS_SCENES
 from matplotlib.testing.compare import compare_images
 from pdf_text import pages_of
-
-RESULTS = Path(__file__).parents[2] / "results"
+from places import GOLDEN, RESULTS, ROOT
 
 # What the project promises for times [s], whatever the processor; a load [N] is off by
 # some 200 N/s of the error in its time. After the first global slip errors have grown

@@ -4,14 +4,13 @@ digit told."""
 import math
 import re
 from collections.abc import Iterable
-from pathlib import Path
 
 import pandas as pd
 import pytest
+from places import ROOT, committed, made
 
 from precursors import Chain, simulate, summarise
 
-ROOT = Path(__file__).parents[2]
 SCENES = ["fig11", "fig10", "fig12"]
 THETAS = ["-5/6", "0", "+5/6"]  # of these scenes, as pages write them
 CHAINS = ["trailing", "uniform", "leading"]
@@ -20,13 +19,12 @@ DRAWS = 1.5  # [%]
 EXPONENT = 0.1  # [1/s]
 NOISE = 2e-3
 
-COMMITTED = ("_full", "heyoka", "mean_load")
 NUMBER = r"([-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?)"
 
 
 def table(name: str, *index: str) -> pd.DataFrame:
-    folder = "paper" if name.endswith(COMMITTED) else "results"
-    found = pd.read_csv(ROOT / f"{folder}/tables/{name}.csv")
+    is_long = name.endswith(("_full", "heyoka", "mean_load"))
+    found = committed(name) if is_long else made(name)
     return found.set_index(list(index)).sort_index() if index else found
 
 

@@ -5,24 +5,13 @@ some ten minutes with nothing else running; its table and speed.png drawn from i
 replace paper/tables/work_precision_full.csv and the golden chart.
 """
 
-from __future__ import annotations
-
-from pathlib import Path
-
 import pytest
-from golden.regenerate import GOLDEN
-
-from precursors.support.files import read_table
-
-TABLE = GOLDEN.parents[1] / "paper/tables/work_precision_full.csv"
-MADE = Path(__file__).parents[2] / "results/tables/work_precision.csv"
+from places import committed, made
 
 
-@pytest.fixture(scope="module", params=[TABLE, MADE], ids=["published", "made"])
-def table(request):
-    return read_table(request.param)
-
-
+@pytest.mark.parametrize(
+    "table", [committed("work_precision_full"), made("work_precision")]
+)
 def test_every_method_that_comes_as_close_as_the_exact_solver_takes_longer(table):
     assert set(table["scene"]) == {"uniform"}
     is_right = table["transitions_right"].eq(table["transitions_true"])

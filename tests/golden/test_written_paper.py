@@ -1,8 +1,6 @@
 """The article: the same bytes from the same results, and no number that no table
 has."""
 
-from __future__ import annotations
-
 import re
 import shutil
 from pathlib import Path
@@ -11,11 +9,11 @@ import pandas as pd
 import pytest
 import write_paper
 from pdf_text import pages_of
+from places import ROOT
 from pypdf import PdfReader
 
 from maegawa2010.paper.shown import results_shown
 
-ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "paper"
 MOST_PAGES = 7
 LEAST_TEXT = 500  # characters of a page

@@ -1,7 +1,5 @@
 """The larger chain against solvers and closed forms that share no code with it."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import NamedTuple
 
@@ -9,6 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from chains import SLIDER
+from places import GOLDEN
 from scipy.integrate import solve_ivp
 
 from precursors import (
@@ -104,9 +103,7 @@ REFERENCES = {
     ),
     "height": (fast(4, weakening_velocity=0.02, push_height=0.003), 0.2, None, 1e-4),
 }
-GOLDEN_LARGER = pd.read_csv(
-    Path(__file__).parents[1] / "golden/reference_larger.csv"
-).groupby("chain")
+GOLDEN_LARGER = pd.read_csv(GOLDEN / "reference_larger.csv").groupby("chain")
 
 
 @pytest.mark.parametrize("name", REFERENCES)

@@ -1,7 +1,5 @@
 """The law of the settled coefficient against runs on which nobody tuned it."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,8 +1,6 @@
 """What every method must do: make the transitions of the exact solver, keep its clock,
 know its Jacobian."""
 
-from __future__ import annotations
-
 from itertools import pairwise
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Whole runs of fixed-step methods: orders with switching, limits, located zeros."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

@@ -1,8 +1,6 @@
 """While nothing switches, limits and energy of fixed-step methods are those of
 theory."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 

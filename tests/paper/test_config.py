@@ -3,9 +3,9 @@ be."""
 
 import copy
 import math
-from pathlib import Path
 
 import pytest
+from places import ROOT
 from settings import CONFIG as PAPERS
 from settings import STUDIES
 
@@ -13,7 +13,6 @@ from maegawa2010.config import check_config, check_sections, read_file, read_num
 from maegawa2010.scenes import scene_slider, scenes_with
 from precursors.model.chain import Chain
 
-ROOT = Path(__file__).parents[2]
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
 MISSING = object()
 STEEP = {"title": "steep", "theta": 0.9}

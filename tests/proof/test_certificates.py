@@ -1,17 +1,15 @@
 """Certificates come back from their files, are what is proved, and are refused if they
 are not."""
 
-from __future__ import annotations
-
 import dataclasses
 import gzip
 import sys
 from collections.abc import Callable
 from fractions import Fraction
-from pathlib import Path
 
 import pytest
 from benchmark.made_up import tied_certificate
+from places import CERTIFICATES
 from settings import CONFIG
 
 from maegawa2010.studies.horizon.chains import (
@@ -33,21 +31,20 @@ from precursors.proof import (
 CHAINS = CONFIG["horizon"]["proved"]
 # A committed certificate is smaller [bytes].
 LARGEST_FILE = 300_000
-COMMITTED = Path(__file__).parents[2] / "src/precursors/benchmark/certificates"
 SLIDER = ExactChain.from_slider
 
 
 @pytest.mark.parametrize("name", CHAINS)
 def test_the_committed_certificates_are_about_the_chains_of_the_configuration(
-    name: str,
-) -> None:
-    certificate = Certificate.load(COMMITTED / f"{name}.json.gz")
+    name,
+):
+    certificate = Certificate.load(CERTIFICATES / f"{name}.json.gz")
     chain = exact_chain(name, CHAINS[name])
     duration = chain_duration(CHAINS[name])
     assert is_about(certificate, chain, duration)
     assert not is_about(certificate, chain, 2 * duration)
     assert not is_about(certificate, dataclasses.replace(chain, mu_k=0), duration)
-    assert (COMMITTED / f"{name}.json.gz").stat().st_size < LARGEST_FILE
+    assert (CERTIFICATES / f"{name}.json.gz").stat().st_size < LARGEST_FILE
 
 
 @pytest.fixture(scope="module")
@@ -57,7 +54,7 @@ def small() -> Certificate:
 
 def test_a_certificate_comes_back_from_its_file_which_is_always_the_same(
     small, tmp_path
-) -> None:
+):
     path = tmp_path / "small.json.gz"
     for certificate in (small, tied_certificate()):
         certificate.save(path)
@@ -67,7 +64,7 @@ def test_a_certificate_comes_back_from_its_file_which_is_always_the_same(
         assert path.read_bytes() == first
 
 
-def test_a_foreign_or_damaged_file_is_refused_in_one_line(small, tmp_path) -> None:
+def test_a_foreign_or_damaged_file_is_refused_in_one_line(small, tmp_path):
     path = tmp_path / "damaged.json.gz"
     small.save(path)
     whole = path.read_bytes()
@@ -116,7 +113,7 @@ SPOILED: dict[str, tuple[Callable[[CertifiedTransition], CertifiedTransition], s
 
 
 @pytest.mark.parametrize(("spoil", "words"), SPOILED.values(), ids=SPOILED)
-def test_what_is_not_proved_is_refused(small: Certificate, spoil, words: str) -> None:
+def test_what_is_not_proved_is_refused(small, spoil, words):
     wrong = [
         *small.transitions[:7],
         spoil(small.transitions[7]),
@@ -129,7 +126,7 @@ def test_what_is_not_proved_is_refused(small: Certificate, spoil, words: str) ->
         verify(dataclasses.replace(small, transitions=tuple(wrong)))
 
 
-def test_an_end_that_is_not_found_is_refused(small: Certificate) -> None:
+def test_an_end_that_is_not_found_is_refused(small):
     tied = tied_certificate()
     assert tied.tie
     early = tied.tie._replace(time=Enclosure(Fraction(1, 10), Fraction(0)))
@@ -148,7 +145,7 @@ def test_an_end_that_is_not_found_is_refused(small: Certificate) -> None:
             verify(wrong)
 
 
-def test_theta_of_a_scene_is_not_rounded() -> None:
+def test_theta_of_a_scene_is_not_rounded():
     config = {
         "chain": {"n_blocks": 10, "normal_load": 400.0, "length": 0.1},
         "load_cells": {"spacing": 0.06},
@@ -161,7 +158,7 @@ def test_theta_of_a_scene_is_not_rounded() -> None:
         assert scene_exact_chain(config, name) == SLIDER(theta="5/6")
 
 
-def test_a_scene_that_is_not_the_papers_chain_is_not_proved_as_if_it_were() -> None:
+def test_a_scene_that_is_not_the_papers_chain_is_not_proved_as_if_it_were():
     slider = {"n_blocks": 3, "normal_load": 400.0, "length": 0.1}
     plain = {"theta": "5/6", "push_height": 0.0}
     config = {"chain": slider, "scenes": {"plain": plain}}
@@ -199,14 +196,14 @@ def test_one_block_has_the_whole_load_whatever_theta_is():
         ),
     ],
 )
-def test_a_bad_argument_is_named(slider, argument, message: str) -> None:
+def test_a_bad_argument_is_named(slider, argument, message):
     with pytest.raises(ValueError, match=message):
         certify(SLIDER(**slider), **argument)
 
 
 def test_without_python_flint_the_missing_extra_is_named(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+    monkeypatch,
+):
     monkeypatch.setitem(sys.modules, "flint", None)
     for name in ("tube", "motion", "event_roots"):
         monkeypatch.delitem(sys.modules, f"precursors.proof.{name}", raising=False)

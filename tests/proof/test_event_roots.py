@@ -1,8 +1,6 @@
 """Event functions enclose the exact ones; their first root is found, of polynomials
 with known roots too."""
 
-from __future__ import annotations
-
 import re
 from dataclasses import replace
 from typing import Any

@@ -1,8 +1,6 @@
 """Proofs are right: beside closed forms, the double solver, and runs that start a
 little apart."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
@@ -60,8 +58,8 @@ def digits(x: Fraction) -> mpmath.mpf:
 
 @pytest.mark.parametrize("slider", [{"theta": "-5/6"}, {"n_blocks": 1}])
 def test_the_first_slip_is_that_of_one_oscillator_under_a_growing_load(
-    slider: dict[str, Any],
-) -> None:
+    slider,
+):
     """m x'' = drop + K V t - stiffness x from rest at x = 0, as in `chains.lone_slip`."""
     chain = ExactChain.from_slider(**slider)
     rate = chain.drive_stiffness * chain.drive_velocity
@@ -88,8 +86,8 @@ def test_the_first_slip_is_that_of_one_oscillator_under_a_growing_load(
 
 @pytest.mark.parametrize("theta", ["-5/6", "5/6", "-1"])
 def test_a_scene_is_proved_up_to_its_global_slip_as_the_solver_finds_it(
-    theta: str,
-) -> None:
+    theta,
+):
     """Or, at theta = -1, a chain with a block that bears no load."""
     chain = ExactChain.from_slider(theta=theta)
     truth = Truth.proved(certify(chain, 10, until="global slip"))
@@ -98,7 +96,7 @@ def test_a_scene_is_proved_up_to_its_global_slip_as_the_solver_finds_it(
     assert found.time_error < SOLVER
 
 
-def test_the_doubles_of_a_chain_are_taken_for_what_they_are() -> None:
+def test_the_doubles_of_a_chain_are_taken_for_what_they_are():
     certificate = certify(ExactChain.from_slider(n_blocks=3).to_chain(), 2)
     assert certificate.chain.mu_s == Fraction(0.7) != Fraction(7, 10)
     assert certificate.transitions[0].tangential_load.contains(
@@ -106,7 +104,7 @@ def test_the_doubles_of_a_chain_are_taken_for_what_they_are() -> None:
     )
 
 
-def test_a_mirror_symmetric_start_is_a_tie() -> None:
+def test_a_mirror_symmetric_start_is_a_tie():
     certificate = tied_certificate()
     assert [(t.time, t.block, t.mode) for t in certificate.transitions] == [
         (exactly(Fraction(0)), i, mode) for i, mode in ((3, 1), (4, -1), (5, 1))
@@ -119,7 +117,7 @@ def test_a_mirror_symmetric_start_is_a_tie() -> None:
     verify(certificate)
 
 
-def test_a_block_without_kinetic_friction_that_is_back_at_its_limit_is_a_tie() -> None:
+def test_a_block_without_kinetic_friction_that_is_back_at_its_limit_is_a_tie():
     # Without loss its net force is mu_s w again, where it stops.
     chain = ExactChain.from_slider(2, theta="0.5", mu_k=0)
     tie = certify(chain, 1).tie
@@ -128,7 +126,7 @@ def test_a_block_without_kinetic_friction_that_is_back_at_its_limit_is_a_tie() -
     assert tie.closeness < Fraction(1, 10**45)
 
 
-def test_a_tie_all_but_true_is_decided_with_more_bits() -> None:
+def test_a_tie_all_but_true_is_decided_with_more_bits():
     # Block 2 carries less than block 6, by one part in 1e100, and lets go first.
     chain = ExactChain.from_slider(n_blocks=7, theta="1e-100")
     certificate = certify(chain, "1e-5", start_positions=SYMMETRIC_START)
@@ -139,8 +137,8 @@ def test_a_tie_all_but_true_is_decided_with_more_bits() -> None:
 
 @pytest.mark.parametrize("displaced", [1, 2])
 def test_a_run_that_starts_within_the_distance_stays_in_the_enclosures(
-    displaced: int,
-) -> None:
+    displaced,
+):
     chain = ExactChain.from_slider()
     reach = fraction(proof_of(chain, COARSE_BITS).state.distance)
     # One block is displaced, so that the spring forces are at this distance [N] from
@@ -197,7 +195,7 @@ def fraction(x: arb) -> Fraction:
     return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
 
 
-def test_radii_that_are_absorbed_count_in_the_norm_of_the_energy() -> None:
+def test_radii_that_are_absorbed_count_in_the_norm_of_the_energy():
     """sum T_i^2 / c_i + u_i^2, for two blocks."""
     constants: Any = SimpleNamespace(coupling=[arb(c) for c in (0, 0.25, 4, 0)])
     state = EnclosedState([], [], [0] * 4, arb(1))
@@ -211,7 +209,7 @@ def test_radii_that_are_absorbed_count_in_the_norm_of_the_energy() -> None:
 @pytest.mark.parametrize(("last", "derivative"), [(9, 1), (6, 2)])
 def test_the_bound_of_the_remainder_is_its_first_terms_where_blocks_oscillate(
     last, derivative
-) -> None:
+):
     """u'' = -omega^2 u: of every other coefficient 0, a_{n+2} = omega^2 a_n / ((n +
     1)(n + 2)) in size."""
     omega2 = Fraction(4)
@@ -234,7 +232,7 @@ def test_the_bound_of_the_remainder_is_its_first_terms_where_blocks_oscillate(
         assert first <= bound < (1 + slack) * first
 
 
-def test_what_is_published_holds_what_is_proved_and_is_hardly_wider() -> None:
+def test_what_is_published_holds_what_is_proved_and_is_hardly_wider():
     certificate = certify(
         ExactChain.from_slider(n_blocks=3, theta="1/2"), 20, width="1e-20"
     )
@@ -258,7 +256,7 @@ def test_what_is_published_holds_what_is_proved_and_is_hardly_wider() -> None:
     assert max(radii) > 1e-36
 
 
-def test_a_transition_at_the_very_end_of_the_run_is_not_decided_by_luck() -> None:
+def test_a_transition_at_the_very_end_of_the_run_is_not_decided_by_luck():
     certificate = certify(ExactChain.from_slider(), "0.35", max_bits=512)
     assert certificate.transitions == ()
     assert certificate.tie
@@ -276,7 +274,7 @@ def lone_block(excess: str) -> Certificate:
     return certify(chain, 6 * time_unit(chain), start_velocities=[start], max_bits=512)
 
 
-def test_a_motion_that_only_grazes_its_limit_is_not_proved() -> None:
+def test_a_motion_that_only_grazes_its_limit_is_not_proved():
     grazing = lone_block("0")
     assert [t.mode for t in grazing.transitions] == [1]
     assert grazing.tie
@@ -284,7 +282,7 @@ def test_a_motion_that_only_grazes_its_limit_is_not_proved() -> None:
 
 
 @pytest.mark.parametrize("excess", ["1", "1e-12"])
-def test_the_least_slope_of_a_turn_is_that_of_the_motion(excess: str) -> None:
+def test_the_least_slope_of_a_turn_is_that_of_the_motion(excess):
     turned = lone_block(excess)
     chain = turned.chain
     assert [t.mode for t in turned.transitions[:2]] == [1, -1]
@@ -296,12 +294,12 @@ def test_the_least_slope_of_a_turn_is_that_of_the_motion(excess: str) -> None:
     assert 0.9989 * expected < slope < expected
 
 
-def test_block_1_is_released_at_the_rate_of_the_drive() -> None:
+def test_block_1_is_released_at_the_rate_of_the_drive():
     (release,) = certify(ExactChain.from_slider(), "0.36").transitions[:1]
     assert 0.999 * 80 < release.slope < 80  # K V [N/s], from rest
 
 
-def test_too_few_bits_are_an_error_and_no_tie() -> None:
+def test_too_few_bits_are_an_error_and_no_tie():
     with pytest.raises(
         CertificateError, match="max_bits = 128 do not suffice beyond t = "
     ):

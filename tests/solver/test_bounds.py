@@ -4,8 +4,6 @@ exact series.
 A step that is too short costs time: `test_work` counts it.
 """
 
-from __future__ import annotations
-
 import math
 from types import SimpleNamespace
 

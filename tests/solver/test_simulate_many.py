@@ -1,7 +1,5 @@
 """Ensembles: every run of `simulate_many` is that of `simulate`."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from chains import SLIDER

@@ -8,19 +8,17 @@ tie, they were computed to 70 digits by a method that shared no code with the so
 Blocks without load have no transitions.
 """
 
-from __future__ import annotations
-
 import json
-from pathlib import Path
 
 import numpy as np
 import pytest
 from chains import by_plain
+from places import GOLDEN
 
 from precursors import Chain, simulate
 
-FILE = Path(__file__).parents[1] / "golden/worst_cases.jsonl"
-CASES = [json.loads(line) for line in FILE.read_text(encoding="utf-8").splitlines()]
+LINES = (GOLDEN / "worst_cases.jsonl").read_text(encoding="utf-8").splitlines()
+CASES = list(map(json.loads, LINES))
 # Error of a time in units of 1/omega: measured are 6e-13 or less, and 4e-10 near a
 # velocity that grazes zero. With mu_k = mu_s such a velocity has a double root, known
 # to the root of a rounding: 8e-7.

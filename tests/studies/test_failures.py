@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from places import made
 
 from maegawa2010.studies.failures import figure
 from maegawa2010.studies.failures.common import Curve
@@ -60,13 +61,12 @@ def test_rk4_beyond_its_limit_finishes_with_friction_and_is_wrong_at_every_step(
     assert step[0] == pytest.approx(1.005 * limit)
 
 
-CURVES = Path(__file__).parents[2] / "results/tables/failure_curves.csv"
 PANELS = Path(figure.__file__).with_name("failure_gallery.csv")
 
 
 def gallery_of_failures():
     """Of the curves that the workflow wrote."""
-    return figure.draw(pd.read_csv(CURVES), pd.read_csv(PANELS))
+    return figure.draw(made("failure_curves"), pd.read_csv(PANELS))
 
 
 PICTURES = {"failure_gallery": gallery_of_failures}

@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from settings import CONFIG, ROOT
+from places import made
+from settings import CONFIG
 
 from maegawa2010.studies.grid import figure
 from maegawa2010.studies.grid.axes import check_axes
 from maegawa2010.studies.grid.tables import grid_study
-from precursors.support.files import read_table
 
 AXES = [
     {"key": "theta", "from": -0.95, "to": 0.95, "points": 4},
@@ -18,8 +18,7 @@ BLOCKS = {"key": "n_blocks", "from": 2, "to": 4, "points": 9}
 
 
 def map_of_friction():
-    table = read_table(ROOT / "results/tables/grid.csv")
-    return figure.draw(table, CONFIG["grid"], [(0.25, 0.5)])
+    return figure.draw(made("grid"), CONFIG["grid"], [(0.25, 0.5)])
 
 
 PICTURES = {"grid": map_of_friction}

@@ -1,14 +1,12 @@
 """Settled stick-slip of the larger chain, and what its committed tables say."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
 from chains import SLIDER
+from places import committed
 from settings import CONFIG
 
 from maegawa2010.studies.larger.cycles import (
@@ -24,7 +22,6 @@ from precursors.larger.settled import events_of, settled
 from precursors.larger.simulate import simulate_larger
 from precursors.larger.steps import SETTLED, period_of
 
-ROOT = Path(__file__).parents[2]
 # A run that ends when it has settled is this near [F_Z] to one that goes on.
 GOES_ON = 3 * SETTLED
 BLOCKS = (
@@ -38,10 +35,6 @@ MACHINE = 1e-3
 def chain_of(n, part, t_v, theta=0):
     chain = SLIDER(n, theta=theta)
     return LargerChain(chain, weakening_velocity(SLIDER(), part, t_v), t_v)
-
-
-def committed(name):
-    return pd.read_csv(ROOT / f"paper/tables/{name}_full.csv")
 
 
 @pytest.mark.parametrize(
@@ -132,7 +125,7 @@ def test_the_committed_first_slips_are_those_of_the_library():
     settings = settings | {"nucleation": point, "studies": {"counts": point}}
     for name, again in larger_tables(CONFIG["chain"], settings).items():
         keys = ["study", "even_length", "relaxation_time", "theta", "n_blocks"]
-        there = again[keys].merge(committed(name), on=keys)[list(again)]
+        there = again[keys].merge(committed(f"{name}_full"), on=keys)[list(again)]
         pd.testing.assert_frame_equal(there, again, rtol=MACHINE)
 
 
@@ -142,14 +135,14 @@ def test_the_committed_coefficients_are_those_of_the_library():
         "study == 'map' and even_length == 0.27 and relaxation_time == 1.4e-4"
         " and past == 2 and theta < 0"
     )
-    there = committed("larger_settled").loc[chosen.index]
+    there = committed("larger_settled_full").loc[chosen.index]
     [member] = chosen.to_dict("records")
     again = run_past(study.seed, member)["coefficient"]
     assert there["coefficient"].tolist() == pytest.approx([again], abs=MACHINE)
 
 
 def test_the_committed_law_is_that_of_the_library_and_gives_the_coefficients():
-    there = committed("larger_settled")
+    there = committed("larger_settled_full")
     some = there[there["past"] == 0].iloc[::40]
     of_runs = some.loc[:, :"slope"]
     pd.testing.assert_frame_equal(beside_law(of_runs, CONFIG["chain"]), some, rtol=1e-9)
@@ -162,7 +155,7 @@ def test_the_committed_law_is_that_of_the_library_and_gives_the_coefficients():
 
 
 def settled_runs(study):
-    return committed("larger_settled").query(f"study == '{study}' and period > 0")
+    return committed("larger_settled_full").query(f"study == '{study}' and period > 0")
 
 
 @pytest.mark.parametrize(

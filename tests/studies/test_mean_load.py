@@ -1,14 +1,11 @@
 """The time mean of F_X under many loadings and drives."""
 
-from pathlib import Path
-
 import numpy as np
-import pandas as pd
+from places import committed
 from settings import CONFIG
 
 from maegawa2010.studies.mean_load.tables import mean_load_table
 
-COMMITTED = Path(__file__).parents[2] / "paper/tables/mean_load.csv"
 MU_K = CONFIG["chain"]["mu_k"]
 # Runs of tens of seconds are beyond predictability: roundings change their slips.
 CHAOS = 2e-3
@@ -17,7 +14,7 @@ CHAOS = 2e-3
 def test_every_mean_is_that_of_kinetic_friction_with_what_the_balance_adds():
     few = CONFIG["mean_load"] | {"n_blocks": [10, 20], "seconds": [10, 5]}
     table = mean_load_table(CONFIG["chain"], few)
-    there = pd.read_csv(COMMITTED)
+    there = committed("mean_load")
     for rows in (table, there):
         explained = MU_K + rows["stored"] + rows["backward"]
         np.testing.assert_allclose(rows["mean"], explained, atol=1e-8)

@@ -1,13 +1,11 @@
 """The smaller models: closed forms, and the exact chain where both must agree."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 import yaml
+from places import ROOT
 
 from maegawa2010.studies.models import quasistatic
 from maegawa2010.studies.models.models import MODELS, UNITS, scene_answers
@@ -24,7 +22,6 @@ from maegawa2010.studies.models.statics import front_law_answers
 from precursors import Chain, simulate
 from precursors.model.statics import balance_matrix, load_bound
 
-ROOT = Path(__file__).parents[2]
 SLIDER = Chain.from_slider
 THETAS = ["-5/6", 0.0, "5/6"]
 ROUNDING = 1e-12  # relative, of sums of a few terms
@@ -101,7 +98,7 @@ def dense_stage(chain, stiffness, net, sign, overshoot, rounding):
 
 
 @pytest.mark.parametrize("velocity", [1e-4, 0.3])
-def test_the_rigid_slider_is_the_exact_chain_of_one_block(velocity: float) -> None:
+def test_the_rigid_slider_is_the_exact_chain_of_one_block(velocity):
     chain = SLIDER(n_blocks=1, drive_velocity=velocity)
     run = simulate(chain, 12.5 * 200.0 / chain.loading_rate)
     n = len(run.transitions)
@@ -129,14 +126,14 @@ def test_the_rigid_slider_is_the_exact_chain_of_one_block(velocity: float) -> No
 @pytest.mark.parametrize("n_blocks", [1, 2, 10, 23])
 def test_cascades_agree_with_dense_matrices_that_balance_energy(
     theta, overshoot, n_blocks
-) -> None:
+):
     assert_dense(SLIDER(n_blocks=n_blocks, theta=theta), overshoot)
 
 
 # Two uneven chains in which blocks join, turn round and are put out, those that began
 # the slip among them.
 @pytest.mark.parametrize(("draw", "mu_k"), [(72, 0.45), (88, 0.6)])
-def test_so_do_cascades_in_which_blocks_turn_round(draw, mu_k) -> None:
+def test_so_do_cascades_in_which_blocks_turn_round(draw, mu_k):
     chain = SLIDER(n_blocks=6, mu_k=mu_k, drive_stiffness=8e6)
     uneven = np.random.default_rng(draw).uniform(0.1, 1.9, 6)
     assert_dense(replace(chain, weights=chain.weights * uneven), ENERGY_CONSERVED)
@@ -164,7 +161,7 @@ def assert_dense(chain: Chain, overshoot: float) -> None:
 
 
 @pytest.mark.parametrize("theta", THETAS)
-def test_the_front_law_comes_closer_to_the_exact_chain_with_more_blocks(theta) -> None:
+def test_the_front_law_comes_closer_to_the_exact_chain_with_more_blocks(theta):
     errors = []
     for n_blocks in (10, 40):
         chain = SLIDER(n_blocks=n_blocks, theta=theta)
@@ -184,12 +181,12 @@ def test_the_front_law_comes_closer_to_the_exact_chain_with_more_blocks(theta) -
         ),
     ],
 )
-def test_a_chain_that_no_cascade_fits_gets_one_clear_line(call, message: str) -> None:
+def test_a_chain_that_no_cascade_fits_gets_one_clear_line(call, message):
     with pytest.raises(ValueError, match=message):
         call()
 
 
-def test_a_limit_that_is_met_is_said(monkeypatch) -> None:
+def test_a_limit_that_is_met_is_said(monkeypatch):
     needed = len(quasistatic_slips(SLIDER()))
     monkeypatch.setattr(quasistatic, "MAX_EVENTS", needed - 1)
     with pytest.raises(RuntimeError, match=f"no global slip within {needed - 1} event"):
@@ -199,7 +196,7 @@ def test_a_limit_that_is_met_is_said(monkeypatch) -> None:
         quasistatic_slips(SLIDER())
 
 
-def test_the_schema_of_the_configuration_knows_the_names_of_the_models() -> None:
+def test_the_schema_of_the_configuration_knows_the_names_of_the_models():
     schema = yaml.safe_load(
         (ROOT / "workflow/schemas/config.schema.yaml").read_text(encoding="utf-8")
     )
@@ -208,7 +205,7 @@ def test_the_schema_of_the_configuration_knows_the_names_of_the_models() -> None
     assert all(set(model(SLIDER())) <= set(UNITS) for model in MODELS.values())
 
 
-def test_answers_are_a_table_with_a_row_for_each_number() -> None:
+def test_answers_are_a_table_with_a_row_for_each_number():
     table = scene_answers({"theta": "5/6"}, "quasistatic").set_index("quantity")
     assert table.loc["events_counted", "value"] == 14.0
     assert list(table.loc["front_loads", "block"]) == list(range(1, 11))
@@ -218,7 +215,7 @@ def test_answers_are_a_table_with_a_row_for_each_number() -> None:
 
 def test_a_run_without_a_global_slip_has_no_answer_to_what_asks_for_it(
     monkeypatch,
-) -> None:
+):
     monkeypatch.setattr("precursors.model.statics.LIMIT", 0.1)
     answers = MODELS["chain"](SLIDER())
     assert all(

@@ -1,16 +1,15 @@
 """Each number is tabulated for every N."""
 
 import pandas as pd
-from settings import ROOT
+from places import committed, made
 
 from maegawa2010.studies.resolution import figure
 from maegawa2010.studies.resolution import tables as resolution
 
 
 def numbers_by_n():
-    table = pd.read_csv(ROOT / "results/tables/resolution.csv")
-    finer = pd.read_csv(ROOT / "paper/tables/resolution_full.csv")
-    return figure.draw(table, papers_n=10, mu_k=0.45, finer=finer)
+    finer = committed("resolution_full")
+    return figure.draw(made("resolution"), papers_n=10, mu_k=0.45, finer=finer)
 
 
 PICTURES = {"resolution": numbers_by_n}

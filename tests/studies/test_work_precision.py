@@ -1,7 +1,5 @@
 """Methods are timed as they should be, and compared with what is proved."""
 
-from __future__ import annotations
-
 import math
 
 import pytest

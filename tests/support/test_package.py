@@ -6,13 +6,12 @@ import sys
 import tomllib
 import zipfile
 from itertools import chain
-from pathlib import Path
 
 import pytest
+from places import ROOT
 
 import precursors
 
-ROOT = Path(__file__).parents[2]
 # The compiler, and what only simulations and tables need.
 HEAVY = {"numba", "h5py", "pandas"}
 # What the rules of the workflow import.

@@ -5,14 +5,13 @@ import os
 import platform
 import subprocess
 from importlib.metadata import version
-from pathlib import Path
 
 import pytest
+from places import ROOT
 
 from maegawa2010.support.provenance import provenance
 from precursors.support.checkout import git_state
 
-ROOT = Path(__file__).parents[2]
 # FIPS 180-4.
 SHA256_OF_ABC = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
 

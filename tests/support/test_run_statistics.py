@@ -1,8 +1,6 @@
 """Quantiles, intervals of a median and of a share, and what a difference of medians
 says."""
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 import pytest

@@ -12,10 +12,10 @@ from fractions import Fraction
 from itertools import pairwise
 
 import numpy as np
-import pandas as pd
 import pytest
 from golden.benchmark_page import PAGE, PROBLEMS, results_table
-from workflow_copy import ROOT, copy_workflow
+from places import ROOT, made
+from workflow_copy import copy_workflow
 
 from precursors import find_slips
 from precursors.benchmark.score import problems, score, solution
@@ -105,7 +105,7 @@ def test_the_page_states_the_problems_that_are_proved():
 
 
 def test_the_page_shows_the_scores_of_all_results():
-    scores = pd.read_csv(ROOT / "results/tables/benchmark.csv")
+    scores = made("benchmark")
     assert results_table(scores) in TEXT
     files = {path.stem for path in (ROOT / "benchmarks/results").iterdir()}
     assert files == set(scores["solver"] + "-" + scores["problem"])

@@ -3,8 +3,7 @@
 from pathlib import Path
 
 import yaml
-
-ROOT = Path(__file__).parents[2]
+from places import GOLDEN, ROOT
 
 
 def test_every_file_that_an_independent_check_compares_is_made_by_the_workflow_and_kept(
@@ -15,5 +14,5 @@ def test_every_file_that_an_independent_check_compares_is_made_by_the_workflow_a
     files = {entry["file"] for entry in manifest if entry["comment"]}
     assert len(files) == len(manifest) > 10
     assert files <= untouched[1].made
-    kept = {path.name for path in (ROOT / "tests/golden").iterdir()}
+    kept = {path.name for path in GOLDEN.iterdir()}
     assert {Path(file).name for file in files} <= kept

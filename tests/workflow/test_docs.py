@@ -11,7 +11,8 @@ from textwrap import dedent
 
 import pytest
 from colours import SIGHTS, alike
-from workflow_copy import ROOT, copy_workflow
+from places import ROOT
+from workflow_copy import copy_workflow
 
 from precursors import cli
 

@@ -3,17 +3,15 @@
 FAULT_KILLS=20 kills twenty times.
 """
 
-from __future__ import annotations
-
 import os
 import shutil
 import signal
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
-from workflow_copy import ROOT, Workspace, copy_workflow
+from places import ROOT
+from workflow_copy import Workspace, copy_workflow
 
 KILLS = int(os.environ.get("FAULT_KILLS", "1"))
 SEED = 1964
@@ -53,7 +51,7 @@ def made(project: Workspace) -> set[str]:
     return set(found)
 
 
-def test_after_kills_the_same_command_ends_with_the_same_bytes(tmp_path: Path) -> None:
+def test_after_kills_the_same_command_ends_with_the_same_bytes(tmp_path):
     # Spaces and letters of any script are odd, but allowed.
     project = copy_workflow(tmp_path / "Vorläufer des Gleitens")
     rng = np.random.default_rng(SEED)

@@ -4,7 +4,7 @@ run."""
 import re
 
 import pytest
-from workflow_copy import ROOT
+from places import ROOT
 
 # One environment, built from requirements.lock by the Makefile, serves all rules.
 ACCEPTED_FINDING = "Specify a conda environment or container for each rule"

@@ -1,7 +1,5 @@
 """The scripts say in one line what goes wrong, and print and compare what they should."""
 
-from __future__ import annotations
-
 import json
 import re
 import runpy
@@ -13,7 +11,7 @@ import pandas as pd
 import print_reproduction
 import pytest
 from matplotlib import image
-from workflow_copy import ROOT
+from places import ROOT
 
 from maegawa2010.studies.models.models import scene_answers
 from precursors import Record, Run

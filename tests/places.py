@@ -1,0 +1,20 @@
+"""Where files lie that several tests read, and tables of the build and of long studies."""
+
+from pathlib import Path
+
+import pandas as pd
+
+ROOT = Path(__file__).parents[1]
+RESULTS = ROOT / "results"
+GOLDEN = ROOT / "tests/golden"
+CERTIFICATES = ROOT / "src/precursors/benchmark/certificates"
+
+
+def made(name: str) -> pd.DataFrame:
+    """A table that `make all` made."""
+    return pd.read_csv(RESULTS / f"tables/{name}.csv")
+
+
+def committed(name: str) -> pd.DataFrame:
+    """A table of a long study, which is committed."""
+    return pd.read_csv(ROOT / f"paper/tables/{name}.csv")
