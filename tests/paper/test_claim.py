@@ -11,10 +11,10 @@ from maegawa2010.paper.claim import (
     HOLDS,
     RESULT,
     UNDECIDED,
-    Claim,
     Finding,
     Share,
     in_draws,
+    judged,
 )
 from maegawa2010.paper.claims import (
     FINDINGS,
@@ -25,7 +25,6 @@ from maegawa2010.paper.claims import (
     friction_independent_with_ten_blocks,
     growth_falls_with_theta,
     lengths_tend_to_increase,
-    stated_claims,
     waves,
 )
 from maegawa2010.paper.inputs import SCENES
@@ -158,7 +157,7 @@ def test_a_run_without_the_event_of_a_claim_contradicts_it_and_a_missing_number_
     def no_event(_):
         raise IndexError
 
-    row = Claim("a", "Sect. 1", RESULT, "", "", "1", "", no_event).row({})
+    row = judged({"claim": "a", "kind": RESULT}, no_event, {})
     assert row["verdict"] == FAILS
     with pytest.raises(
         ValueError, match=r"^claim count-trailing: the tables do not have its numbers"
@@ -171,7 +170,7 @@ def test_a_run_without_the_event_of_a_claim_contradicts_it_and_a_missing_number_
 def test_a_claim_without_a_function_is_one_clear_line(monkeypatch):
     monkeypatch.delitem(FINDINGS, "waves")
     with pytest.raises(ValueError, match="claim waves: it has no function"):
-        stated_claims()
+        evaluate({})
 
 
 def test_differences_are_claims_that_are_new_gone_or_of_another_verdict():
@@ -288,6 +287,5 @@ def overdamped(mu_sapp: float) -> dict[str, pd.DataFrame]:
     ],
 )
 def test_a_claim_holds_up_to_its_limit_and_not_beyond(name, meets, misses):
-    find = next(claim.find for claim in stated_claims() if claim.name == name)
-    assert find(meets).holds
-    assert not find(misses).holds
+    assert FINDINGS[name](meets).holds
+    assert not FINDINGS[name](misses).holds

@@ -94,12 +94,11 @@ def printed(claims: pd.DataFrame) -> str:
 
 
 def evidence(claim: Mapping[Any, str]) -> str:
-    """The verdict, the value found and the one expected, the rule, the shares of the
-    ensembles, and the note."""
+    """The verdict, the value found, the rule, the shares of the ensembles, and the
+    note."""
     unit = "" if claim["unit"] == "1" else f" {claim['unit']}"
     of = f" ({claim['of']})" if claim["of"] else ""
-    expected = f", expected {claim['expected']}{unit}" if claim["expected"] else ""
-    found = f"found {claim['ours']}{unit}{of}{expected}: {claim['rule']}."
+    found = f"found {claim['ours']}{unit}{of}: {claim['rule']}."
     shares = [
         f"{100 * float(claim[f'{name}_share']):.0f}\N{NO-BREAK SPACE}% of the {runs}"
         for name, runs in RUNS.items()

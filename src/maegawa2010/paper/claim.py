@@ -59,13 +59,12 @@ class Finding:
     """Our numbers; whether the claim holds for them (None: an interval crosses the
     tolerance).
 
-    `expected` is what ours are compared with, `shares` has the share of each ensemble
-    whose draws have these numbers, and `note` is a sentence that belongs to them.
+    `shares` has the share of each ensemble whose draws have these numbers, and `note`
+    is a sentence that belongs to them.
     """
 
     ours: ArrayLike
     holds: bool | None
-    expected: ArrayLike = ()
     shares: Mapping[str, Share] = field(default_factory=dict)
     note: str = ""
 
@@ -84,68 +83,48 @@ class Finding:
 
 
 Find = Callable[[Tables], Finding]
-SAID = ("section", "kind", "statement", "rule", "unit", "of")
 
 
-@dataclass(frozen=True)
-class Claim:
-    """A statement of the paper that a run could contradict.
+def judged(said: Mapping[Any, str], find: Find, tables: Tables) -> dict[str, Any]:
+    """A claim's row of claims.csv; a run without an event that a claim is about
+    contradicts it.
 
-    `section` says where the paper states it, `kind` is one of those above, `rule` says when
-    it holds, `unit` is the unit of its numbers, `of` says of what each is, if there are
-    several, and `find` compares it with the tables.
+    `said` is what is stated of it: the claim's name; the section in which the paper
+    has it; its kind, one of those above; the statement; the rule, which says when it
+    holds; the unit of its numbers; and `of`, what each of them is, if there are
+    several.
+
+    Raises
+    ------
+    ValueError
+        In one line: the tables do not have the claim's numbers.
     """
-
-    name: str
-    section: str
-    kind: str
-    statement: str
-    rule: str
-    unit: str
-    of: str
-    find: Find
-
-    def __post_init__(self) -> None:
-        if self.kind not in IN_WORDS:
-            raise ValueError(
-                f"claim {self.name}: its kind must be one of {', '.join(IN_WORDS)}, but is {self.kind!r}"
-            )
-
-    def row(self, tables: Tables) -> dict[str, Any]:
-        """The claim's row of claims.csv; a run without an event that a claim is about
-        contradicts it.
-
-        Raises
-        ------
-        ValueError
-            In one line: the tables do not have the claim's numbers.
-        """
-        try:
-            finding = self.find(tables)
-        except (IndexError, ZeroDivisionError):
-            finding = Finding((), False)
-        except (KeyError, TypeError, ValueError) as error:
-            raise ValueError(
-                f"claim {self.name}: the tables do not have its numbers: {error}"
-            ) from error
-        row: dict[str, Any] = {"claim": self.name}
-        row |= {name: getattr(self, name) for name in SAID}
-        row |= {"expected": shown(finding.expected), "ours": shown(finding.ours)}
-        for name, share in finding.shares.items():
-            row[f"{name}_share"] = share.k / share.n
-        row |= {"note": finding.note, "verdict": finding.verdict}
-        words = IN_WORDS[self.kind][finding.verdict]
-        if finding.verdict == EXACT:
-            least = min(share.k / share.n for share in finding.shares.values())
-            words += f" ({100 * least:.0f} %)"
-        return row | {"verdict_text": words}
+    try:
+        finding = find(tables)
+    except (IndexError, ZeroDivisionError):
+        finding = Finding((), False)
+    except (KeyError, TypeError, ValueError) as error:
+        raise ValueError(
+            f"claim {said['claim']}: the tables do not have its numbers: {error}"
+        ) from error
+    shares = {f"{name}_share": part.k / part.n for name, part in finding.shares.items()}
+    words = IN_WORDS[said["kind"]][finding.verdict]
+    if finding.verdict == EXACT:
+        words += f" ({100 * min(shares.values()):.0f} %)"
+    return {
+        **said,
+        "ours": shown(finding.ours),
+        **shares,
+        "note": finding.note,
+        "verdict": finding.verdict,
+        "verdict_text": words,
+    }
 
 
 def in_draws(
     tables: Tables,
     ours: Callable[[pd.DataFrame], Any],
     holds: Callable[[pd.DataFrame], Any],
-    expected: ArrayLike = (),
 ) -> Finding:
     """A claim on numbers of the members: found in the run, and counted over the draws
     of both ensembles.
@@ -161,7 +140,7 @@ def in_draws(
         agree = holds(numbers).all(axis=1)
         drawn = agree[agree.index > 0]
         shares[name] = Share(int(drawn.sum()), len(drawn))
-    return Finding(numbers.loc[0], bool(agree.loc[0]), expected, shares)
+    return Finding(numbers.loc[0], bool(agree.loc[0]), shares)
 
 
 def shown(values: ArrayLike) -> str:

@@ -17,7 +17,7 @@ import pandas as pd
 import scipy
 
 from maegawa2010 import printed
-from maegawa2010.paper.claim import Claim, Find, Finding, in_draws, shown
+from maegawa2010.paper.claim import Find, Finding, in_draws, judged, shown
 from maegawa2010.paper.inputs import LEADING, SCENES, TRAILING, UNIFORM
 from maegawa2010.paper.open_points import open_points_table
 from maegawa2010.paper.tables import Tables, before_global, cell, rows
@@ -61,7 +61,6 @@ def printed_count(scene: str, t: Tables) -> Finding:
         t,
         drawn("events_counted", scene),
         lambda counts: counts == count,
-        count,
     )
 
 
@@ -71,7 +70,6 @@ def printed_friction(scene: str, t: Tables) -> Finding:
         t,
         drawn("mu_sapp", scene),
         lambda friction: (friction - printed.MU_SAPP).abs() <= printed.LAST_DIGIT,
-        printed.MU_SAPP,
     )
 
 
@@ -128,7 +126,7 @@ def lengths_tend_to_increase(t: Tables) -> Finding:
     lengths = up_to_first_global(t[f"{UNIFORM}_slips"])["front"]
     by_chance = [chance_of_rise(lengths), chance_of_rise(partial)]
     below = [chance < CHANCE for chance in by_chance]
-    return Finding(by_chance, all(below) if len(set(below)) == 1 else None, CHANCE)
+    return Finding(by_chance, all(below) if len(set(below)) == 1 else None)
 
 
 def chance_of_rise(values: pd.Series) -> float:
@@ -185,7 +183,6 @@ def friction_independent_with_ten_blocks(t: Tables) -> Finding:
         t,
         spread_of_friction,
         lambda span: span <= printed.LAST_DIGIT,
-        printed.LAST_DIGIT,
     )
     pairs = rows(t["noise_differences"], quantity="mu_sapp")
     agree = "agree" if by_draw.holds else "do not agree"
@@ -206,7 +203,7 @@ def friction_independent_of_loading(t: Tables) -> Finding:
     fine = pairs[pairs["n_blocks"] >= CUT_FINELY]
     largest = fine["difference"].abs().groupby(fine["n_blocks"]).max()
     note = f"The largest with {', '.join(map(str, largest.index))} blocks."
-    return Finding(largest, all_same(fine), printed.LAST_DIGIT, note=note)
+    return Finding(largest, all_same(fine), note=note)
 
 
 def all_same(pairs: pd.DataFrame) -> bool | None:
@@ -226,7 +223,7 @@ def spread_of_friction(runs: pd.DataFrame) -> pd.DataFrame:
 @of_claim
 def friction_underestimated(t: Tables) -> Finding:
     """mu_sapp against the smallest mu_s that is printed as 0.70."""
-    return in_draws(t, drawn("mu_sapp"), lambda friction: friction < MU_S, MU_S)
+    return in_draws(t, drawn("mu_sapp"), lambda friction: friction < MU_S)
 
 
 @of_claim
@@ -237,7 +234,7 @@ def waves(t: Tables) -> Finding:
     """
     overdamped = rows(t["model_comparison"], model="overdamped", question="mu_sapp")
     without = np.array([cell(overdamped, "value", scene=scene) for scene in SCENES])
-    return Finding(without, True if (without >= MU_S).all() else None, MU_S)
+    return Finding(without, True if (without >= MU_S).all() else None)
 
 
 @of_claim
@@ -249,7 +246,7 @@ def first_global_slip_is_at_the_largest_load(t: Tables) -> Finding:
         for scene in SCENES
     ]
     largest = [t[f"{scene}_trace"]["tangential_load_N"].max() for scene in SCENES]
-    return Finding(largest, bool(np.less_equal(largest, first).all()), first)
+    return Finding(largest, bool(np.less_equal(largest, first).all()))
 
 
 @of_claim
@@ -296,7 +293,6 @@ def load_of_the_experiment(t: Tables) -> Finding:
         t,
         drawn("global_slip_load_N", UNIFORM),
         lambda load: (load / printed.FIRST_GLOBAL_SLIP_N - 1).abs() <= NEAR_LOAD,
-        printed.FIRST_GLOBAL_SLIP_N,
     )
 
 
@@ -307,23 +303,7 @@ def slip_duration_of_the_experiment(t: Tables) -> Finding:
         t,
         lambda runs: (runs["global_slip_end_s"] - runs["global_slip_s"])[[UNIFORM]],
         lambda time: (time / printed.SLIP_DURATION_S - 1).abs() <= NEAR_TIME,
-        printed.SLIP_DURATION_S,
     )
-
-
-def stated_claims() -> list[Claim]:
-    """The claims of claims.csv, with their functions.
-
-    Raises
-    ------
-    ValueError
-        In one line, if a claim has no function or is of an unknown kind.
-    """
-    stated = read_table(Path(__file__).with_name("claims.csv"), dtype=str).fillna("")
-    for name in stated["name"]:
-        if name not in FINDINGS:
-            raise ValueError(f"claim {name}: it has no function in claims.py")
-    return [Claim(**said, find=FINDINGS[said["name"]]) for _, said in stated.iterrows()]
 
 
 def claims_tables(tables: Tables) -> dict[str, pd.DataFrame]:
@@ -332,8 +312,21 @@ def claims_tables(tables: Tables) -> dict[str, pd.DataFrame]:
 
 
 def evaluate(tables: Tables) -> pd.DataFrame:
-    """Compare every claim with the tables: one row per claim, see `Claim.row`."""
-    return pd.DataFrame([claim.row(tables) for claim in stated_claims()])
+    """Compare every claim of claims.csv with the tables: one row per claim, see
+    `judged`.
+
+    Raises
+    ------
+    ValueError
+        In one line, if a claim has no function, or the tables not its numbers.
+    """
+    stated = read_table(Path(__file__).with_name("claims.csv"), dtype=str).fillna("")
+    if missing := set(stated["claim"]) - set(FINDINGS):
+        raise ValueError(f"claim {min(missing)}: it has no function in claims.py")
+    return pd.DataFrame(
+        judged(said, FINDINGS[said["claim"]], tables)
+        for said in stated.to_dict("records")
+    )
 
 
 def differences(found: pd.DataFrame, expected: pd.DataFrame) -> list[str]:

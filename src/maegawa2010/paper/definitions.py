@@ -22,7 +22,6 @@ from precursors.solver import plain
 from precursors.solver.run import Record, Run
 from precursors.solver.simulate import MAX_TRANSITIONS, simulate
 
-OURS = Definition()
 # The size of theta where it is that of the scenes.
 OF_SCENES = "scenes"
 SIGNS = (-1, 0, 1)
@@ -35,7 +34,7 @@ SWITCHING = {
 
 
 @dataclass(frozen=True)
-class Reading:
+class Reading(Definition):
     """A reading of the paper's words, by default ours.
 
     `changed` names the one column of the table that is not as in ours, and `reading`
@@ -46,29 +45,27 @@ class Reading:
     reading: str = "our reading"
     degree: float | str = OF_SCENES
     switching: str = COULOMB
-    definition: Definition = OURS
 
 
 def readings(
     degrees: Iterable[float | str], load_drops: Iterable[float]
 ) -> Iterator[Reading]:
     """Our reading and those with one change."""
-    yield Reading()
-    slips: list[str | float] = [*list(GLOBAL_SLIPS)[1:], *load_drops]
-    for slip in slips:
-        of_slip = replace(OURS, global_slip=slip)
-        text = f"global slip: {of_slip.global_slip_text}"
-        yield Reading("global_slip", text, definition=of_slip)
-    for short, text in list(SHORT_EVENTS.items())[1:]:
-        of_short = replace(OURS, short=short)
-        yield Reading("short", f"short event: {text}", definition=of_short)
-    for front, text in list(FRONTS.items())[1:]:
-        of_front = replace(OURS, front=front)
-        yield Reading("front", f"length: {text}", definition=of_front)
-    for degree in degrees:
-        yield Reading("degree", f"size of theta: {degree}", degree=degree)
-    for rule, text in list(SWITCHING.items())[1:]:
-        yield Reading("switching", f"switching: {text}", switching=rule)
+    drops = {drop: f"in which F_X drops by more than {drop:g} N" for drop in load_drops}
+    choices: dict[str, tuple[str, dict[Any, Any]]] = {
+        "global_slip": ("global slip", GLOBAL_SLIPS | drops),
+        "short": ("short event", SHORT_EVENTS),
+        "front": ("length", FRONTS),
+        "degree": ("size of theta", {degree: degree for degree in degrees}),
+        "switching": ("switching", SWITCHING),
+    }
+    ours = Reading()
+    yield ours
+    for changed, (words, values) in choices.items():
+        for value, text in values.items():
+            if value != getattr(ours, changed):
+                change = {changed: value, "reading": f"{words}: {text}"}
+                yield replace(ours, changed=changed, **change)
 
 
 def definitions_table(
@@ -112,9 +109,8 @@ def definitions_table(
                 run = run_switching(chain, duration, reading.switching)
             elif chain is not of_scene.chain:
                 run = simulate(chain, duration)
-            row = asdict(reading)
-            row |= row.pop("definition") | {"theta": chain.theta}
-            rows.append(row | numbers(run, reading.definition, of_paper))
+            row = asdict(reading) | {"theta": chain.theta}
+            rows.append(row | numbers(run, reading, of_paper))
     table = pd.DataFrame(rows)
     of_reading = table.groupby(table.index // len(SIGNS))
     within = of_reading["numbers_within_a_digit"].transform("sum")

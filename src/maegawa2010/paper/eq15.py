@@ -100,20 +100,31 @@ def eq15_table(runs: Mapping[str, Run], duration: float) -> pd.DataFrame:
 
 
 def in_symbols(n: int) -> Iterator[Check]:
-    """The load of Eq. 12 for N blocks with any normal loads, as it follows from Eq. 2
-    and as printed."""
-    import sympy  # slow, and the names of the checks are wanted without it
+    """The load F_X = K y_1 of Eq. 12 for N blocks with any normal loads, as it follows
+    from Eqs. 2, 3 and 11, and as printed, with K y_N in the last line.
 
-    from maegawa2010.paper import derivation
+    Every block rests at its limit mu_s w_i. The spring behind it pushes it by K y_1 or
+    k y_i, and the one ahead, which block N does not have, pushes it back.
+    """
+    import sympy  # slow
 
-    w = derivation.weights(n)
-    bound = derivation.bound(n)
-    excess = (derivation.k / derivation.K - 1) * derivation.mu_s * w[-1]
+    K, k, mu_s = sympy.symbols("K k mu_s")
+    # w_01 and not w_1, because SymPy sorts terms by name.
+    w = sympy.symbols([f"w_{i:02d}" for i in range(1, n + 1)])
+    y = sympy.symbols(f"y_1:{n + 1}")
+    behind = [K * y[0], *(k * compression for compression in y[1:])]
+    ahead = [*behind[1:], 0]
+    limits = [mu_s * load for load in w]
+    balances = [b - a - f for b, a, f in zip(behind, ahead, limits, strict=True)]
+    printed = [*balances[:-1], K * y[-1] - limits[-1]]
+    bound = sum(limits)
+    excess = (k / K - 1) * limits[-1]
     for check, equations, expected in (
-        ("at_limit", derivation.balances(n), bound),
-        ("as_printed", derivation.balances_as_printed(n), bound + excess),
+        ("at_limit", balances, bound),
+        ("as_printed", printed, bound + excess),
     ):
-        found = derivation.load(equations)
+        (solution,) = sympy.linsolve(equations, y)
+        found = sympy.expand(K * solution[0])
         wanted = sympy.expand(expected)
         yield Check(
             check, f"N = {n}, in symbols", "N", str(wanted), str(found), found == wanted

@@ -48,13 +48,6 @@ class Definition:
     front: str = "front"
     short: str = "shorter"
 
-    @property
-    def global_slip_text(self) -> str:
-        """Which event is a global slip, in words."""
-        if isinstance(self.global_slip, str):
-            return GLOBAL_SLIPS[self.global_slip]
-        return f"in which F_X drops by more than {self.global_slip:g} N"
-
     def is_global(self, slips: pd.DataFrame) -> Any:
         """Which events are global slips."""
         if self.global_slip == "at once":

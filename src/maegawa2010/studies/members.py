@@ -38,6 +38,7 @@ LOADINGS: dict[str, Callable[[FloatArray], FloatArray]] = {
     "falling": lambda x: np.exp(-2 * x),
     "rising": lambda x: np.exp(2 * x),
 }
+CHAIN = ["scene", "theta", "n_blocks"]  # columns that name it
 # Two numbers are the same if they differ by no more than this: friction coefficients by
 # a unit of the last digit of the paper's 0.49, times by what can be read from the axis
 # of Figs. 10-12.
@@ -168,25 +169,21 @@ def varied(table: pd.DataFrame) -> pd.DataFrame:
     return table.drop(columns=constant)
 
 
-def noise_table(
-    members: pd.DataFrame,
-    point: Sequence[str] = ("scene", "theta"),
-    quantities: Iterable[str] = TOLERANCES,
-) -> pd.DataFrame:
+def noise_table(members: pd.DataFrame) -> pd.DataFrame:
     """Distribution of each number over the noise.
 
     Returns
     -------
     DataFrame
-        One row per point and quantity: runs with noise; reached, how many of these have
+        One row per chain and quantity: runs with noise; reached, how many of these have
         a global slip; `nine_tenths` of those.
     """
     rows = []
-    for values, at_point in members.groupby(list(point), sort=False):
-        runs = with_noise(at_point)
-        number = {"runs": int((at_point["draw"] > 0).sum()), "reached": len(runs)}
-        for quantity in quantities:
-            labels = dict(zip(point, values, strict=True)) | {"quantity": quantity}
+    for values, of_chain in members.groupby(CHAIN, sort=False):
+        runs = with_noise(of_chain)
+        number = {"runs": int((of_chain["draw"] > 0).sum()), "reached": len(runs)}
+        for quantity in TOLERANCES:
+            labels = dict(zip(CHAIN, values, strict=True)) | {"quantity": quantity}
             rows.append(labels | number | nine_tenths(runs[quantity]))
     return pd.DataFrame(rows)
 

@@ -28,7 +28,6 @@ STEP = 0.25
 # Fall of F_X, over F_X, that ends smooth growth: creep that trembles lets it fall by
 # less.
 SEEN = 0.002
-DROPS = (0.1, 0.8, 1.6)  # falls of F_X [N] that detectors see
 AXES = [
     "even_length",
     "relaxation_time",
@@ -142,19 +141,13 @@ def run_to_slip(larger: LargerChain, step: float) -> Any:
 def numbers(run: Record) -> dict[str, float]:
     """Numbers of a run that ends with its first global slip; NaN without one.
 
-    events_counted is that of Fig. 13, mu_sapp Eq. 1. counted_over is the number in Fig.
-    13 of the events in which F_X falls by so much, for each of `DROPS`.
+    events_counted is that of Fig. 13, mu_sapp Eq. 1.
     """
-    slips = find_slips(run)
     friction = apparent_friction(run)
     if math.isnan(friction):
         return {"mu_sapp": friction}
-    found = {"events_counted": len(find_precursors(slips)), "mu_sapp": friction}
-    falls = slips["load_before"] - slips["load_after"]
-    return found | {
-        f"counted_over_{drop:g}N": len(find_precursors(slips[falls >= drop]))
-        for drop in DROPS
-    }
+    counted = len(find_precursors(find_slips(run)))
+    return {"events_counted": counted, "mu_sapp": friction}
 
 
 def medians_table(runs: pd.DataFrame) -> pd.DataFrame:

@@ -15,9 +15,6 @@ from maegawa2010.studies.members import (
     stack,
 )
 
-QUANTITIES = ("events_to_global_slip", "events_counted", "mu_sapp", "global_slip_s")
-POINT = ["scene", "theta", "n_blocks"]
-
 
 def resolution_study(
     sliders: Mapping[str, Mapping[str, Any]],
@@ -55,7 +52,7 @@ def resolution_tables(
     members = pd.concat([noise, gathered]).sort_values("n_blocks", kind="stable")
     return {
         "resolution_members": gathered,
-        "resolution": noise_table(members, POINT, QUANTITIES),
+        "resolution": noise_table(members),
         "resolution_differences": with_finer(differences_by_n(members), finer),
     }
 

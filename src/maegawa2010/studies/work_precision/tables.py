@@ -18,16 +18,11 @@ if TYPE_CHECKING:
     from precursors.proof import Certificate
 
 UNTIL = "global slip"
-# Rounds of which a time is the median. In the default chart, a call that takes longer
-# than `LONG` [s] is timed once, as it averages over the machine's other load by itself.
-ROUNDS = 3
-ROUNDS_FULL = 5
+# Rounds of which a time is the median. A call that takes longer than `LONG` [s] is timed
+# once, as it averages over the machine's other load by itself.
+ROUNDS = 5
 LONG = 0.05
-LONG_FULL = math.inf
-# A method is given up at a setting with which one call takes longer [s]: in the default
-# chart, in the full one.
-LONGEST = 2.0
-LONGEST_FULL = 5.0
+LONGEST = 5.0  # s, of a call: with a setting that takes longer, a method is given up
 # What a method compiles, loads or builds for a chain and a value, it does in a run that
 # is so short [s].
 WARM_UP = 0.4
@@ -38,10 +33,9 @@ def work_precision_table(
     certificate: Certificate, scene: str, full: bool
 ) -> pd.DataFrame:
     """Measure all methods on a proved chain, up to its first global slip."""
-    limits = (ROUNDS_FULL, LONGEST_FULL, LONG_FULL) if full else (ROUNDS, LONGEST, LONG)
     truth = Truth.proved(certificate).until_global_slip()
     duration = float(certificate.proved_until)
-    table = measure_methods(truth, duration, charted_values(full), *limits)
+    table = measure_methods(truth, duration, charted_values(full))
     table.insert(0, "scene", scene)
     return table
 
@@ -59,7 +53,7 @@ def measure_methods(
     values: Mapping[str, Sequence[float]],
     rounds: int = ROUNDS,
     longest: float = LONGEST,
-    long: float = math.inf,
+    long: float = LONG,
 ) -> pd.DataFrame:
     """Time methods with several settings, and compare each run with the truth.
 
