@@ -31,52 +31,26 @@ class TransitionLimitError(RuntimeError):
         self.run = run
 
 
-class _Recorder:
-    """What the kernel writes of chains of one length: rows of transitions, and states
-    every `stride` transitions, of finished runs and then of the one that goes on."""
+class _Room(threading.local):
+    """Room of a thread, kept from call to call, for what the kernel writes of chains of
+    one length: rows of transitions, and states every `stride` transitions."""
 
-    def __init__(self, n_blocks: int) -> None:
-        self.n_blocks = n_blocks
+    n_blocks = 0
+
+    def fit(self, n_blocks: int) -> None:
+        """Make it anew for chains of another length."""
+        if n_blocks == self.n_blocks:
+            return
         # Storing takes little time beside finding so many transitions.
         self.stride = max(10, 1 + n_blocks // 3)
         self.memory = kernel.memory_for(n_blocks)
+        self.record = np.zeros((max(SHARED_ROOM, 2 * n_blocks), kernel.ROW))
         n_states = max(SHARED_ROOM // self.stride, 2)
-        self.empty = (
-            np.zeros((max(SHARED_ROOM, 2 * n_blocks), kernel.ROW)),
-            np.empty((n_states, 2 + 3 * n_blocks)),
-        )
-
-    def room(self, progress: NDArray[np.void], j: int) -> tuple[FloatArray, FloatArray]:
-        """Record and states for run j to begin in, or to go on in, longer where they
-        are full."""
-        # Of a record, a field of the array is read faster than one of its row.
-        if progress["stored"][j] == 0:  # it has not begun
-            self.record, self.states = self.empty
-            return self.empty
-        run = progress[j]
-        if run["transitions"] + 1 == len(self.record):
-            self.record = np.resize(self.record, (2 * len(self.record), kernel.ROW))
-        if run["stored"] == len(self.states):
-            self.states = _with_room(self.states, run)
-        return self.record, self.states
-
-    def take(self, rows: int, states: int) -> tuple[FloatArray, FloatArray]:
-        """Record and states of the finished runs, which have so many rows."""
-        finished = self.record[:rows], self.states[:states]
-        self.record = self.record[rows:]
-        self.states = self.states[states:]
-        return finished
+        self.states = np.empty((n_states, 2 + 3 * n_blocks))
+        self.n_blocks = n_blocks
 
 
-_own = threading.local()
-
-
-def _recorder_for(n_blocks: int) -> _Recorder:
-    """The recorder of this thread, kept from call to call."""
-    recorder: _Recorder | None = vars(_own).get("recorder")
-    if recorder is None or recorder.n_blocks != n_blocks:
-        recorder = _own.recorder = _Recorder(n_blocks)
-    return recorder
+_room = _Room()
 
 
 def run_batch(
@@ -88,9 +62,9 @@ def run_batch(
     """Run chains of equal length one after the other, in as few calls of the kernel as
     it takes.
 
-    A thread has one recorder: it must take all runs before it begins others.
+    A thread has one room: it must take all runs before it begins others.
     """
-    recorder = _recorder_for(chains[0].n_blocks)
+    _room.fit(chains[0].n_blocks)
     batch = kernel.Batch(
         parameters=np.array([kernel.parameters(chain) for chain in chains]),
         weights=np.array([chain.weights for chain in chains]),
@@ -99,20 +73,28 @@ def run_batch(
     )
     words = np.zeros((len(chains), kernel.WORDS), np.int64)
     progress = words.view(kernel.PROGRESS)[:, 0]
-    progress["stride"] = recorder.stride
+    progress["stride"] = _room.stride
+    record = _room.record
+    states = _room.states
     first = 0
     told: Any = None  # it takes a quarter of a short run's time
     try:
         while True:
-            arrays = (words, *recorder.room(progress, first), recorder.memory)
-            n_finished, *rows = kernel.run_batch(
+            arrays = (words, record, states, _room.memory)
+            n_finished, rows, stored = kernel.run_batch(
                 batch, end, *arrays, first, WINDOWS_PER_CALL
             )
-            which = range(first, n_finished)
-            yield from _runs(chains, batch, progress, which, *recorder.take(*rows), end)
+            finished = (range(first, n_finished), record[:rows], states[:stored])
+            yield from _runs(chains, batch, progress, *finished, end)
             first = n_finished
             if first == len(chains):
                 return
+            if progress["stored"][first] == 0:  # it has not begun
+                record = _room.record
+                states = _room.states
+            else:
+                record = _longer_record(record[rows:], progress[first])
+                states = _longer_states(states[stored:], progress[first])
             if told is None:
                 told = bar("running", end.duration)
             told.update(progress["onset"].mean() - told.n)
@@ -175,15 +157,24 @@ def _unfinished(run: Run, end: kernel.End) -> TransitionLimitError:
     )
 
 
-def _with_room(states: FloatArray, run: np.void) -> FloatArray:
-    """Stored states of a run, made longer.
+def _longer_record(record: FloatArray, run: np.void) -> FloatArray:
+    """The record of a run, longer if it is full."""
+    is_full = run["transitions"] + 1 == len(record)
+    return np.resize(record, (2 * len(record), kernel.ROW)) if is_full else record
+
+
+def _longer_states(states: FloatArray, run: np.void) -> FloatArray:
+    """Stored states of a run, longer if they are full.
 
     Every second one is dropped where they would take more than `STATES_BYTES`.
     """
-    rows = 2 * len(states)
+    rows = len(states)
+    if run["stored"] < rows:
+        return states
     if 2 * states.nbytes > STATES_BYTES:
         states = states[::2]
         run["stored"] = len(states)
         run["stride"] *= 2
-        rows = rows // 2
+    else:
+        rows *= 2
     return np.resize(states, (rows, states.shape[1]))
