@@ -78,7 +78,7 @@ def load_trace(run: Record) -> pd.DataFrame:
     K x_1.
     """
     times, loads = load_curve(run)
-    pushed = run.chain.drive_stiffness * run.chain.drive_velocity * times
+    pushed = run.chain.loading_rate * times
     return pd.DataFrame(
         {"time_s": times, "tangential_load_N": loads, "K_x1_N": pushed - loads}
     )

@@ -18,7 +18,7 @@ from precursors.larger.chain import LargerChain, LargerUntil, tilt
 from precursors.larger.friction import chords
 from precursors.larger.steps import CompiledChain, End, Motion, march
 from precursors.model.chain import Chain, FloatArray
-from precursors.model.checks import checked_until, positive, whole
+from precursors.model.checks import checked_span, positive, whole
 from precursors.solver.run import LargerRun
 from precursors.solver.simulate import (
     MAX_TRANSITIONS,
@@ -65,8 +65,7 @@ def simulate_larger(
         If there are more transitions or steps than the limits; `run` is what was
         computed.
     """
-    duration = positive("duration", duration, "s")
-    checked_until(until, "settled")
+    duration = checked_span(duration, until, "settled")
     most = MAX_TRANSITIONS if max_transitions is None else max_transitions
     limits = (whole("max_transitions", most), whole("max_steps", max_steps))
     chain = larger.chain

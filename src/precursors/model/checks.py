@@ -75,10 +75,10 @@ def whole(name: str, value: object, at_most: float = math.inf) -> int:
     return int(value)
 
 
-def checked_span(duration: object, until: object) -> float:
+def checked_span(duration: object, until: object, *others: str) -> float:
     """Return the duration [s] of a run, or raise a ValueError about it or about
     `until`."""
-    checked_until(until)
+    checked_until(until, *others)
     return positive("duration", duration, "s")
 
 

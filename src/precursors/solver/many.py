@@ -90,15 +90,14 @@ def _starts(
     unit: str,
     chains: Sequence[Chain],
 ) -> list[FloatArray]:
-    if values is None:
-        return [np.zeros(chain.n_blocks) for chain in chains]
-    if len(values) != len(chains):
+    starts = [None] * len(chains) if values is None else values
+    if len(starts) != len(chains):
         raise ValueError(
-            f"{name} must be one for each of the {len(chains)} chains, but are {len(values)}"
+            f"{name} must be one for each of the {len(chains)} chains, but are {len(starts)}"
         )
     return [
-        checked_start(f"{name}[{j}]", value, unit, chain)
-        for j, (value, chain) in enumerate(zip(values, chains, strict=True))
+        checked_start(f"{name}[{j}]", start, unit, chain)
+        for j, (start, chain) in enumerate(zip(starts, chains, strict=True))
     ]
 
 

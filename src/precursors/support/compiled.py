@@ -2,12 +2,11 @@
 
 import hashlib
 import os
-import pickletools
+import pickle
 import shutil
 import sys
 import tempfile
 import warnings
-from collections import deque
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -122,7 +121,7 @@ def _cache_place(name: str, digest: str) -> Path | None:
         for old in places[:-KEPT]:
             shutil.rmtree(old, ignore_errors=True)
         for file in place.glob("*.nb[ci]"):
-            if not _is_whole(file):
+            if not file.read_bytes().endswith(pickle.STOP):
                 file.unlink(missing_ok=True)
         if shutil.disk_usage(place).free > LEAST_ROOM:
             return place
@@ -134,16 +133,3 @@ def _cache_place(name: str, digest: str) -> Path | None:
         stacklevel=3,
     )
     return None
-
-
-def _is_whole(file: Path) -> bool:
-    """Whether a file of Numba's, which holds code or is the index of it, ends where its
-    pickles do."""
-    pickles = 2 if file.suffix == ".nbi" else 1
-    try:
-        with file.open("rb") as content:
-            for _ in range(pickles):
-                deque(pickletools.genops(content), maxlen=0)
-    except ValueError:
-        return False
-    return True
