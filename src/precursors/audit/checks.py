@@ -184,15 +184,15 @@ class Auditor:
         """Stuck blocks are at rest and within their strength once the transitions at
         time 0 are done."""
         state = self.state
-        sticks = state.mode == 0
-        for i in np.flatnonzero(sticks & (state.velocity != 0)):
-            self.report(
-                f"block {i + 1} starts with {state.velocity[i]:.6g} m/s but is stuck"
-            )
-            state.velocity[i] = 0.0
         excess = np.abs(state.net_force()) - state.strength
-        for block in (np.flatnonzero(sticks & (excess > 0)) + 1).tolist():
-            self.check_force(block, "starts stuck beyond mu_s w", excess[block - 1])
+        for i in np.flatnonzero(state.mode == 0).tolist():
+            velocity = state.velocity[i]
+            if velocity != 0:
+                self.report(
+                    f"block {i + 1} starts with {velocity:.6g} m/s but is stuck"
+                )
+                state.velocity[i] = 0.0
+            self.check_force(i + 1, "starts stuck beyond mu_s w", excess[i])
 
     def check_force(self, block: int, what: str, wrong: float) -> None:
         """A net force is not wrong by more than its rounding."""

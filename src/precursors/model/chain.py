@@ -310,10 +310,8 @@ def linear_weights(n_blocks: int, normal_load: float, theta: float | str) -> Flo
     n = whole("n_blocks", n_blocks, MOST_BLOCKS)
     load = positive("normal_load", normal_load, "N")
     degree = parse_theta(theta)
-    if n == 1:
-        return np.array([load])
     i = np.arange(1, n + 1)
-    return load / n * (1 + (2 * i - n - 1) / (n - 1) * degree)
+    return load / n * (1 + (2 * i - n - 1) / max(n - 1, 1) * degree)
 
 
 def parse_theta(theta: float | str) -> float:

@@ -10,22 +10,14 @@ from numbers import Rational, Real
 
 import numpy as np
 
-from precursors.model.chain import SLIDER, Chain
+from precursors.model.chain import ARGUMENTS, SLIDER, Chain
 
 Number = Fraction | int | float | str
 
 _PAPERS_SLIDER = {
     name: value for name, value in SLIDER.items() if isinstance(value, float)
 }
-_NUMBERS = (
-    "mass",
-    "stiffness",
-    "drive_stiffness",
-    "drive_velocity",
-    "mu_s",
-    "mu_k",
-    "length",
-)
+_NUMBERS = ARGUMENTS[1:]  # all but the weights
 
 
 @dataclass(frozen=True)
@@ -72,14 +64,9 @@ class ExactChain:
         load = slider["normal_load"]
         extent = slider["length"]
         # At N = 1 Eq. 7 is 0/0; the one block carries the whole load.
-        offsets = [
-            Fraction(2 * i - n - 1, n - 1) if n > 1 else Fraction(0)
-            for i in range(1, n + 1)
-        ]
+        offsets = (Fraction(2 * i - n - 1, max(n - 1, 1)) for i in range(1, n + 1))
         return cls(
-            weights=tuple(
-                load / n * (1 + offset * slider["theta"]) for offset in offsets
-            ),
+            weights=tuple(load / n * (1 + x * slider["theta"]) for x in offsets),
             mass=slider["slider_mass"] / n,
             stiffness=n * slider["youngs_modulus"] * slider["cross_section"] / extent,
             drive_stiffness=slider["drive_stiffness"],

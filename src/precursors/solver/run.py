@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import number_array
-from precursors.solver.record import TRANSITION, States
+from precursors.solver.record import COLUMNS, TRANSITION, States
 from precursors.solver.run_file import RunFileError, read_record, write_record
 from precursors.support.files import AnyPath
 
@@ -63,10 +63,9 @@ class Record:
         time; `others` are further attributes of the class.
         """
         transitions = np.empty(np.size(time), dtype=TRANSITION)
-        transitions["time"] = time
-        transitions["block"] = block
-        transitions["mode"] = mode
-        transitions["tangential_load"] = tangential_load
+        columns = (time, block, mode, tangential_load)
+        for name, column in zip(COLUMNS, columns, strict=True):
+            transitions[name] = column
         if intervals is None:
             instants = np.concatenate([[0.0], transitions["time"], [duration]])
             intervals = np.diff(instants)
