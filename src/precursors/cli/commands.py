@@ -89,18 +89,18 @@ def simulate(arguments: Namespace) -> None:
         **{name: found[name] for name in SHOWN},
     }
     values |= numbers_of_larger(run)
+    advice = "--output RUN.h5 saves the run; precursors plot RUN.h5 draws it"
     if arguments.output is not None:
         run.save(arguments.output)
         values["output"] = str(arguments.output)
+        advice = f"precursors plot {shlex.quote(values['output'])} draws it"
     if not arguments.json:
         text = FOUND + (FIRST_SLIP if found["reached"] else NO_SLIP)
         counted = several(found["events_counted"], "event")
         print(text.format(**values, F_Z=run.chain.normal_load, counted=counted))
     show_values(values, arguments.json)
     if not arguments.json:
-        saved = "RUN.h5" if arguments.output is None else arguments.output
-        how = "--output RUN.h5 saves the run; " if arguments.output is None else ""
-        print(f"\n{how}precursors plot {shlex.quote(str(saved))} draws it")
+        print(f"\n{advice}")
     tell_accuracy(run, found["global_slip_s"])
 
 
@@ -174,9 +174,7 @@ def _measured(arguments: Namespace, axes: Sequence[str], run: Record) -> FloatAr
     if not len(data):
         raise ValueError(f"{path} ends before --data-start")
     columns = dict(zip(axes, data.T, strict=True))
-    ranges = [
-        f"{name} {min(values):g} to {max(values):g}" for name, values in columns.items()
-    ]
+    ranges = (f"{name} {min(x):g} to {max(x):g}" for name, x in columns.items())
     tell(f"{path}: {several(len(data), 'point')}, {', '.join(ranges)}")
     tell_apart(path, columns, run)
     return data
@@ -330,9 +328,8 @@ def choice_of(arguments: Namespace) -> dict[str, str]:
 
 def given(arguments: Namespace, names: Iterable[str]) -> dict[str, Any]:
     """Options that were given, of those named."""
-    return {
-        name: value for name in names if (value := getattr(arguments, name)) is not None
-    }
+    found = {name: getattr(arguments, name) for name in names}
+    return {name: value for name, value in found.items() if value is not None}
 
 
 def several(number: int, noun: str) -> str:
@@ -392,9 +389,7 @@ def tell_accuracy(run: Record, first_global_slip: float) -> None:
 
 def show_values(values: Mapping[str, Any], as_json: bool) -> None:
     """Print named values, one a line, ten digits a number; JSON has null for NaN."""
-    values = {
-        name: None if value != value else value for name, value in values.items()
-    }  # NaN
+    values = {name: None if x != x else x for name, x in values.items()}  # NaN
     if as_json:
         print(json.dumps(values, indent=1))
         return

@@ -27,18 +27,19 @@ exit codes:
   4    a package that this needs is not installed
   130  interrupted (Ctrl-C)"""
 
+# Usage and meaning.
 COMMANDS = {
-    "simulate": "run a chain and summarise it",
-    "slips": "list the slip events of a run",
-    "plot": "draw a run",
-    "audit": "check that runs are motions of the model, without the solver's code",
-    "score": "score a result file on a problem of docs/benchmark.md",
-}
-USAGE = {
-    "slips": "slips [RUN.h5] [options]",
-    "plot": "plot [RUN.h5] [options]",
-    "audit": "audit RUN.h5 ...",
-    "score": "score MINE.csv --problem NAME [options]",
+    "simulate": ("[options]", "run a chain and summarise it"),
+    "slips": ("[RUN.h5] [options]", "list the slip events of a run"),
+    "plot": ("[RUN.h5] [options]", "draw a run"),
+    "audit": (
+        "RUN.h5 ...",
+        "check that runs are motions of the model, without the solver's code",
+    ),
+    "score": (
+        "MINE.csv --problem NAME [options]",
+        "score a result file on a problem of docs/benchmark.md",
+    ),
 }
 # Arguments of `Chain.from_slider` that are numbers.
 CHAIN = {
@@ -91,12 +92,12 @@ def read_options(argv: Sequence[str]) -> argparse.Namespace:
         "--version", action="store_true", help="show version, commit and identifiers"
     )
     subparsers = top.add_subparsers(dest="command", metavar="COMMAND", prog=top.prog)
-    for name, meaning in COMMANDS.items():
+    for name, (usage, meaning) in COMMANDS.items():
         command = subparsers.add_parser(
             name,
             help=meaning,
             description=f"{meaning.capitalize()}.",
-            usage=f"precursors {USAGE.get(name, f'{name} [options]')}",
+            usage=f"precursors {name} {usage}",
         )
         if name in argv:  # the defaults of the others are not read
             add_options(command, name)
@@ -114,12 +115,12 @@ def read_options(argv: Sequence[str]) -> argparse.Namespace:
     return arguments
 
 
-def add_options(command: Parser, name: str) -> Parser:
+def add_options(command: Parser, name: str) -> None:
     """Add the options of a command."""
     add = command.add_argument
     if name == "audit":
         add("files", nargs="+", type=Path, metavar="RUN.h5", help="a run file")
-        return command
+        return
     if name == "score":
         add(
             "file",
@@ -171,7 +172,6 @@ def add_options(command: Parser, name: str) -> Parser:
     add("--json", action="store_true", help="print one JSON value")
     if name != "score":
         _add_chain(command)
-    return command
 
 
 def _add_chain(command: Parser) -> None:
