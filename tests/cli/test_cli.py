@@ -183,7 +183,7 @@ def test_the_chain_of_the_options_runs_to_its_first_global_slip(
 
 
 def test_a_larger_chain_without_a_critical_length_is_told_so(cli):
-    told = "this chain is too weakly weakening for the law: no l_c\n"
+    told = "l_c/L must be between 0.3 and 0.7, but is inf\n"
     _, _, err = cli("simulate", "--weakening-velocity=5", "--duration=0.1")
     assert err.endswith(told)
 
