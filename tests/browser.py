@@ -39,7 +39,8 @@ class Page:
     what went wrong in it."""
 
     def __init__(self, send: int, receive: int) -> None:
-        self._send, self._receive = send, receive
+        self._send = send
+        self._receive = receive
         self._buffer = b""
         self._last = 0
         self._session: str | None = None

@@ -20,7 +20,8 @@ def random_chain(rng: np.random.Generator) -> Chain:
 def random_transitions(rng: np.random.Generator) -> Record:
     """A list of transitions that obeys no mechanics: rests without duration, turns, an
     unfinished event."""
-    n_blocks, n = int(rng.integers(1, 5)), int(rng.integers(1, 40))
+    n_blocks = int(rng.integers(1, 5))
+    n = int(rng.integers(1, 40))
     intervals = rng.uniform(0.1, 1.0, n + 1) * (rng.random(n + 1) < 0.7)
     mode = np.zeros(n_blocks + 1, int)
     rows = []

@@ -58,7 +58,8 @@ def test_short_events_are_dropped_equal_ones_kept_and_nothing_after_the_global_s
 def test_the_slip_table_has_the_events_with_units_and_lengths_in_metres():
     run = random_transitions(np.random.default_rng(1))
     run = replace(run, chain=replace(run.chain, length=0.3))
-    table, slips = slip_table(run), find_slips(run)
+    table = slip_table(run)
+    slips = find_slips(run)
     for name, with_unit in {"end": "end_s", "largest_load": "largest_load_N"}.items():
         assert table[with_unit].equals(slips[name])
     assert (slips["front"] != slips["n_slid"]).any()

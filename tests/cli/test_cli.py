@@ -263,6 +263,7 @@ def test_a_reader_that_has_enough_is_no_error():
     ("options", "text", "err", "asked"),
     [
         ([], "", "", {}),
+        (["--figure=push", "--events=2"], "", "", {"figure": "push", "events": [2]}),
         (
             ["--width=85", "--font-size=9", "--font=DejaVu Serif", "--title=Mine"],
             "t;F\n0;0\n1,5;120,5\n",
@@ -278,7 +279,7 @@ def test_a_reader_that_has_enough_is_no_error():
             {"figure": "lengths"},
         ),
     ],
-    ids=["load", "look", "lengths"],
+    ids=["load", "push", "look", "lengths"],
 )
 def test_plot_draws_what_the_library_draws_as_it_is_told_to(
     cli, run_file, tmp_path, monkeypatch, options, text, err, asked

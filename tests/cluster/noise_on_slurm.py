@@ -93,7 +93,8 @@ def test_a_cancelled_job_is_made_up_by_the_next_call_and_all_chunks_are_local_on
     left_out = shutil.ignore_patterns("results", ".*", "tests", "wheelhouse")
     shutil.copytree(ROOT, tmp_path / "source", ignore=left_out)
     (tmp_path / "small.yaml").write_text(json.dumps(SMALL), encoding="utf-8")
-    here, there = tmp_path / "here", tmp_path / "there"
+    here = tmp_path / "here"
+    there = tmp_path / "there"
     local = snakemake(here, f"--cores={CORES}", environment={**os.environ})
     assert local.wait() == 0, here.with_suffix(".txt").read_text(encoding="utf-8")
     with slurm_node(tmp_path / "slurm", CORES) as node:

@@ -29,14 +29,17 @@ MOST_BYTES = 120e3
 # sixteen, agree within a factor.
 OF_PREDICTABILITY = 2.0
 # A motion that is played has steps of time, in which it changes by less than
-OF_FORCES, OF_SHIFTS = 2.0, 2e-7  # N, m
+OF_FORCES = 2.0  # N
+OF_SHIFTS = 2e-7  # m
 # s, the shortest film of an event that is shown alone, and of it what is waited for
-FILM, SEEN = 3.0, 0.3
+FILM = 3.0
+SEEN = 0.3
 PHONE = (390, 844)  # px
 ZOOMED = (640, 400)  # px, the laptop at 200 %
 SHIFT = 0.02  # of the layout, largest sum over the steps and over a drag
 TARGET = 44  # px, smallest width and height of what a finger meets
-TEXT_CONTRAST, MARK_CONTRAST = 4.5, 3.0  # WCAG 2.2 AA
+TEXT_CONTRAST = 4.5  # WCAG 2.2 AA
+MARK_CONTRAST = 3.0  # WCAG 2.2 AA
 
 # What a reader does; with fewer than the last step's 40 blocks, which take seconds.
 TOOLS = """
@@ -429,7 +432,8 @@ def test_a_colour_means_the_same_as_in_the_figures_and_no_other(scheme):
         for block in re.findall(r":root[^{]*{([^}]*)}", sheet)[:2]
     )
     colors = light | (dark if scheme == "dark" else {})
-    figures, places = in_cielab(FIGURES), in_cielab(colors)
+    figures = in_cielab(FIGURES)
+    places = in_cielab(colors)
     for name in FIGURES:
         assert np.linalg.norm(places[name] - figures[name]) < TOLD_APART, name
     for sight in SIGHTS:

@@ -77,10 +77,12 @@ def worst_error(column: str) -> float:
 
 def test_readme_tells_the_numbers_of_the_tables():
     page = "README.md"
-    counted, friction = reproduced("events_counted"), reproduced("mu_sapp")
+    counted = reproduced("events_counted")
+    friction = reproduced("mu_sapp")
     sliders = table("digits")["n"].max()
     means = table("mean_load")
-    lowest, highest = means.min(numeric_only=True), means.max(numeric_only=True)
+    lowest = means.min(numeric_only=True)
+    highest = means.max(numeric_only=True)
     ends = [end[name] for name in ("mean", "largest") for end in (lowest, highest)]
     assert_told(
         page,

@@ -148,7 +148,8 @@ def test_events_are_those_of_small_steps(case):
 
 @pytest.mark.parametrize("n", [2, 7, 50])
 def test_a_tilt_keeps_the_sum_of_loads_and_balances_the_torque(n):
-    chain, height = SLIDER(n), 3e-3
+    chain = SLIDER(n)
+    height = 3e-3
     change = tilt(chain, height)
     arms = chain.length * ((np.arange(n) + 0.5) / n - 0.5)
     assert change.sum() == pytest.approx(0.0, abs=1e-15)
@@ -255,7 +256,8 @@ def test_a_block_that_moves_against_its_mode_stops_at_once():
     """Its velocity is of the size of an error; the clock must not run backwards."""
     larger = LargerChain(SLIDER(), **PAIR)
     state = Motion(*np.zeros((7, 11)), *np.zeros((2, 11), np.int64), np.zeros(2))
-    state.mode[0], state.velocity[0] = 1, -1e-9
+    state.mode[0] = 1
+    state.velocity[0] = -1e-9
     assert try_step(model_of(larger), state, 0, 2, 1e-7, False) == (0.0, 0)
 
 
@@ -284,7 +286,9 @@ CHORDS = 1e-3  # of the fall of F_X in a slip; 1.7e-4 is measured
 def test_a_block_slides_by_any_law_of_friction_and_the_file_names_it(tmp_path):
     block = SLIDER(1, drive_velocity=1e-3)
     run = simulate_larger(LargerChain(block, friction=LAW), 0.4)
-    mu_s, mu_k, f_z = block.mu_s, block.mu_k, block.normal_load
+    mu_s = block.mu_s
+    mu_k = block.mu_k
+    f_z = block.normal_load
 
     def motion(_, state):
         load, v = state

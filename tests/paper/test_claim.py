@@ -93,7 +93,8 @@ def test_mu_sapp_is_the_same_if_the_interval_of_every_difference_says_so(
 
 def test_the_values_of_three_runs_agree_to_a_unit_of_the_last_digit():
     """In the run they are 0.011 apart, and in the draw of each ensemble 0.009."""
-    run, draw = [0.49, 0.495, 0.501], [0.49, 0.495, 0.499]
+    run = [0.49, 0.495, 0.501]
+    draw = [0.49, 0.495, 0.499]
     members = pd.concat(
         pd.DataFrame({"scene": SCENES, "draw": i, "mu_sapp": values})
         for i, values in enumerate((run, draw))
@@ -177,7 +178,8 @@ def test_differences_are_claims_that_are_new_gone_or_of_another_verdict():
     def table(**verdicts):
         return pd.DataFrame(verdicts.items(), columns=["claim", "verdict"])
 
-    found, expected = table(a=HOLDS, b=HOLDS, c=EXACT), table(a=HOLDS, b=EXACT, d=EXACT)
+    found = table(a=HOLDS, b=HOLDS, c=EXACT)
+    expected = table(a=HOLDS, b=EXACT, d=EXACT)
     assert differences(found, expected) == [
         "b: is holds, expected exact",
         "c: is exact, expected none",

@@ -48,7 +48,8 @@ def test_the_exponent_is_a_rate_and_does_not_depend_on_the_distance(monkeypatch)
     chain = SLIDER(theta="5/6", drive_velocity=1e-3)
     slow = replace(chain, mass=4 * chain.mass, drive_velocity=chain.drive_velocity / 2)
     run = simulate(chain, 2.0)
-    one, other = lyapunov_exponent(run), lyapunov_exponent(simulate(slow, 4.0))
+    one = lyapunov_exponent(run)
+    other = lyapunov_exponent(simulate(slow, 4.0))
     assert other["exponent_per_s"] == pytest.approx(
         one["exponent_per_s"] / 2, rel=1e-12
     )
@@ -88,7 +89,8 @@ def test_the_tables_hold_what_is_proved_and_what_the_solver_gets_right():
     certificate = certify(chain, 0.5)
     n = len(certificate.transitions)
     tables = proof_tables({"pair": certificate}, 1e-9)
-    row, facts = tables["certificates"].iloc[0], tables["solver_vs_proof"].iloc[0]
+    row = tables["certificates"].iloc[0]
+    facts = tables["solver_vs_proof"].iloc[0]
     width = float(2 * max(t.time.radius for t in certificate.transitions))
     assert (row["transitions"], row["largest_time_width_s"]) == (n, width)
     assert facts["agreeing_transitions"] == facts["transitions"] == n

@@ -163,7 +163,8 @@ def test_a_configuration_without_the_papers_scenes_has_no_claims_and_no_paper(
 def test_an_interrupted_study_goes_on_where_it_was_and_an_edit_renews_what_it_touches(
     finished,
 ):
-    digits, noise = "digits_members", "noise_members"
+    digits = "digits_members"
+    noise = "noise_members"
     tables = [f"results/tables/{study}.csv" for study in (digits, noise)]
     next((finished.path / "results/ensembles" / digits).iterdir()).unlink()
     (finished.path / tables[0]).unlink()
