@@ -39,13 +39,6 @@ NOT_PLAIN = re.compile(
 MOST_VALUES = 100_000  # in a file, those of aliases and merges written out
 # Python's numbers that YAML reads as text.
 TEXT_TO_YAML = re.compile(r"[-+]?(\d+|(\d*\.\d+|\d+\.)(?=e\d))e[-+]?\d+", re.IGNORECASE)
-KINDS: dict[Any, str] = {
-    bool: "true or false",
-    (int, float): "a number",
-    str: "a text",
-    list: "a list",
-    dict: "a table of keys and values",
-}
 
 
 class Loader(yaml.CSafeLoader):
@@ -224,22 +217,9 @@ def check_sections(config: Config, studies: Config) -> None:
     """
     for name, section in config.items():
         check_names("configuration:", [name], [*SECTIONS, *studies])
-        default = studies.get(name, section)
-        _check_kind(name, section, default)
-        if isinstance(section, dict) and name in studies:
-            check_names(f"configuration: {name}", section, default)
-            for key, value in section.items():
-                _check_kind(f"{name}.{key}", value, default[key])
-
-
-def _check_kind(where: str, value: object, default: object) -> None:
-    """Refuse a value that is of another kind than that of studies.yaml."""
-    for kind, words in KINDS.items():
-        if isinstance(default, kind):
-            if not isinstance(value, kind):
-                given = f"must be {words}, but is {value!r}{_hint(value)}"
-                raise ValueError(_short(f"configuration: {where} {given}"))
-            return
+        known = studies.get(name)
+        if isinstance(section, dict) and isinstance(known, dict):
+            check_names(f"configuration: {name}", section, known)
 
 
 def _hint(value: object) -> str:

@@ -2,9 +2,11 @@
 
 from job import job, read_all, write_tables
 
-from maegawa2010.paper.claims import claims_tables
+from maegawa2010.paper.claims import evaluate
+from maegawa2010.paper.open_points import open_points_table
 from precursors.support.files import read_table
 
 with job() as snakemake:
     tables = read_all(read_table, snakemake.input.tables)
-    write_tables(claims_tables(tables), snakemake.output)
+    found = {"claims": evaluate(tables), "open_points": open_points_table(tables)}
+    write_tables(found, snakemake.output)

@@ -22,7 +22,7 @@ SCRIPTS = ("drawing.js", "story.js", "studies.js", "figures.js", "explorer.js")
 
 def proved_slider(values: Mapping[str, Any]) -> dict[str, Any]:
     """Arguments of `Chain.from_slider` of a chain of the configuration's
-    `accuracy.proved`."""
+    `horizon.proved`."""
     slider = {
         name: values.get(name, value)
         for name, value in SLIDER.items()

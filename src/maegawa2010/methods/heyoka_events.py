@@ -18,7 +18,6 @@ from maegawa2010.methods.common import Method, Result
 from maegawa2010.methods.events import EventMotion
 from precursors.model.chain import Chain
 
-# The tightest is rounding, heyoka's own default.
 # Beyond it the code is compiled in compact mode, which heyoka's documentation
 # recommends for large systems.
 LARGE = 20

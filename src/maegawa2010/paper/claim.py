@@ -3,7 +3,7 @@ agrees."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -41,17 +41,11 @@ ENOUGH = 0.95
 ENSEMBLES = {"noise": "noise_members", "digits": "digits_members"}
 
 
-@dataclass(frozen=True)
-class Share:
+class Share(NamedTuple):
     """In how many of n draws of an ensemble a claim holds."""
 
     k: int
     n: int
-
-    @property
-    def interval(self) -> tuple[float, float]:
-        """95 % interval of the share."""
-        return share_interval(self.k, self.n)
 
 
 @dataclass(frozen=True)
@@ -76,7 +70,7 @@ class Finding:
             return UNDECIDED
         if not self.holds:
             return FAILS
-        intervals = [share.interval for share in self.shares.values()]
+        intervals = [share_interval(*share) for share in self.shares.values()]
         if any(high < ENOUGH for _, high in intervals):
             return EXACT
         return UNDECIDED if any(low < ENOUGH for low, _ in intervals) else HOLDS

@@ -19,7 +19,6 @@ import scipy
 from maegawa2010 import printed
 from maegawa2010.paper.claim import Find, Finding, in_draws, judged, shown
 from maegawa2010.paper.inputs import LEADING, SCENES, TRAILING, UNIFORM
-from maegawa2010.paper.open_points import open_points_table
 from maegawa2010.paper.tables import Tables, before_global, cell, rows
 from precursors.analysis.slips import up_to_first_global
 from precursors.model.chain import FloatArray
@@ -304,11 +303,6 @@ def slip_duration_of_the_experiment(t: Tables) -> Finding:
         lambda runs: (runs["global_slip_end_s"] - runs["global_slip_s"])[[UNIFORM]],
         lambda time: (time / printed.SLIP_DURATION_S - 1).abs() <= NEAR_TIME,
     )
-
-
-def claims_tables(tables: Tables) -> dict[str, pd.DataFrame]:
-    """Both tables by file name."""
-    return {"claims": evaluate(tables), "open_points": open_points_table(tables)}
 
 
 def evaluate(tables: Tables) -> pd.DataFrame:

@@ -111,7 +111,8 @@ def draw_lengths(
     if in_place and len(slips) > 1:
         axes.text(0.84, 0.36, CARRIED_TEXT, transform=axes.transAxes, ha="right")
     elif not in_place:
-        axes.plot([], [], **CARRIED, color=style.GREY, label=CARRIED_TEXT)
+        if weights is not None or any(table["theta"].notna().any() for table in slips):
+            axes.plot([], [], **CARRIED, color=style.GREY, label=CARRIED_TEXT)
         axes.plot([], [], **SHORT, color=style.GREY, label="short events, not counted")
 
 

@@ -58,21 +58,16 @@ def draw(
             axes.set(xscale="log", xlabel="Number of blocks $N$ [-]")
             axes.axvline(papers_n, **style.DOTTED)
             style.set_ticks(axes.xaxis, [2, 5, 10, 20, 50, 100, 200])
-        events = _medians(table, "events_counted")
+        medians = table.pivot_table("q50", "n_blocks", ["quantity", "scene"])
+        events = medians["events_counted"]
         if (events.iloc[-1] > events.iloc[0]).all():
             counts.set_title("More blocks, more events")
-        off = _medians(table, "mu_sapp").iloc[-1] - mu_k
+        off = medians["mu_sapp"].iloc[-1] - mu_k
         if (off.abs() < AGREES).all():
             frictions.set_title(r"With many blocks, every loading gives $\mu_k$")
         frictions.legend(labelcolor="linecolor", loc="upper right")
         _draw_key(figure)
     return figure
-
-
-def _medians(table: pd.DataFrame, quantity: str) -> pd.DataFrame:
-    """Medians of the loadings, a row for each number of blocks."""
-    rows = table[table["quantity"] == quantity]
-    return rows.pivot_table("q50", "n_blocks", "scene")
 
 
 def _draw_numbers(axes: Axes, rows: pd.DataFrame) -> None:

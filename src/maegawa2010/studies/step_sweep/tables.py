@@ -10,26 +10,22 @@ from maegawa2010.methods import METHODS, attempt
 from precursors.analysis.slips import slip_table
 from precursors.analysis.summary import summary_of
 from precursors.benchmark.compare import transitions_right, until_global_slip
-from precursors.model.chain import FloatArray
 from precursors.solver.run import Record, Run
 
 COARSEST = 1e-5  # s
 FINEST = 1e-9
-
-
-def charted_steps(full: bool = False) -> FloatArray:
-    """Steps of the default chart or the full one [s], evenly spaced by logarithm."""
-    per_decade = 24 if full else 6
-    decades = math.log10(COARSEST / FINEST)
-    return np.geomspace(COARSEST, FINEST, round(per_decade * decades) + 1)
+# How many there are, evenly spaced by logarithm: in the default chart, in the full one.
+STEPS = 25
+STEPS_FULL = 97
 
 
 def step_sweep_table(runs: Mapping[str, Run], full: bool) -> pd.DataFrame:
     """One row per scene and step; see `row`."""
+    steps = np.geomspace(COARSEST, FINEST, STEPS_FULL if full else STEPS)
     return pd.DataFrame(
         {"scene": scene, "theta": run.chain.theta, **row}
         for scene, run in runs.items()
-        for row in sweep(run, charted_steps(full))
+        for row in sweep(run, steps)
     )
 
 
