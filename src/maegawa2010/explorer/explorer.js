@@ -16,11 +16,11 @@ let request = null; // what the worker works on, and what is asked of it next
 const dirty = new Set(); // figures that are drawn with the next frame
 const shown = {}; // what is in elements
 
-const totalOf = ({ weights }) => weights.reduce((sum, load) => sum + load);
 const isCalm = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
 const event = () => (state.event === null ? null : run?.events[state.event]);
 const firstGlobal = () => run.events.find(of("isGlobal"));
-const apparent = () => Math.max(0, ...run.counted.map(of("before"))) / totalOf(run);
+const reel = () => [played().start, played().end].map(inFilm); // s of film, of what is played
+const apparent = () => Math.max(0, ...run.counted.map(of("before"))) / run.slider.normal_load;
 
 // Ask for the run of what is set: while a slider is held only up to the first global slip.
 function solve(isHeld = false) {
@@ -57,19 +57,20 @@ function show(next) {
   run.film = filmOf(run);
   placeTime();
   showAnswers();
-  showLoads();
   showStep();
   redraw();
   if (state.isToPlay && !isCalm()) play();
   state.isToPlay = false;
 }
 
-// The rows of Fig. 13: up to the first global slip, without events shorter than one before.
+// The rows of Fig. 13: without events shorter than one before.
 function countedOf(events) {
-  const end = events.findIndex(of("isGlobal"));
   let longest = 0;
-  return events.slice(0, end < 0 ? undefined : end + 1)
-    .filter(({ front }) => front >= longest && (longest = front));
+  return upToGlobal(events).filter(({ front }) => front >= longest && (longest = front));
+}
+function upToGlobal(events) {
+  const end = events.findIndex(of("isGlobal"));
+  return end < 0 ? events : events.slice(0, end + 1);
 }
 
 // The film: seconds at which each event starts and ends when the run is played.
@@ -141,8 +142,7 @@ function showAnswers() {
   const word = (name) => explained("answers", name), until = quantity(Math.min(known, end), "s");
   const isLost = slip ? slip.onset >= known : known <= end;
   const isSame = (one) => Object.keys(one).every((key) => one[key] === slider[key]);
-  const isProved = !slider.weights &&
-    PROVED.some((one) => isSame(one.slider) && slip?.end <= one.duration);
+  const isProved = PROVED.some((one) => isSame(one.slider) && slip?.end <= one.duration);
   const searched = stopped ? "until then" : end < DURATION ? "so far" : `in ${DURATION} s`;
   setHtml("answers", !slip ? `No global slip ${searched} · largest load ${ratio()} F_Z`
     : `${counts(counted.length, "event")}, counted as in ${word("fig13")} · ${word("apparent")} =
@@ -170,17 +170,15 @@ function setPressed(query, isPressed) {
   }
 }
 function showParameters() {
-  const { theta, weights } = state.slider;
   for (const [name, { write, step }] of Object.entries(SLIDERS)) {
-    const input = element(name), value = state.slider[name];
-    const text = name === "theta" && weights ? "by hand" : write(value);
+    const input = element(name), value = state.slider[name], text = write(value);
     input.value = step ? value : Math.log10(value);
     input.setAttribute("aria-valuetext", text);
     element(`${name}-value`).textContent = text;
   }
   element("told").textContent = command();
   setPressed("[data-view]", ({ view }) => view === state.view);
-  setPressed("[data-theta]", (data) => Number(data.theta) === theta && !weights);
+  setPressed("[data-theta]", ({ theta }) => Number(theta) === state.slider.theta);
   setPressed("[data-step]", ({ step }) => Number(step) === state.step);
 }
 
@@ -210,23 +208,6 @@ function useSlider(slider) {
   solve();
 }
 
-// Bars of the loads; they are made anew only when the number of blocks changes.
-function showLoads() {
-  const place = element("loads"), { weights, n } = run, mean = state.slider.normal_load / n;
-  if (!element("loads-part").open) return;
-  if (place.children.length !== n) {
-    place.innerHTML = weights.map((_, i) => `<label><input type="range" data-load="${i}"
-      min="${mean / 40}" max="${3 * mean}" step="${mean / 40}"
-      aria-label="normal load of block ${i + 1}"><output></output></label>`).join("");
-  }
-  weights.forEach((load, i) => {
-    const [input, output] = place.children[i].children;
-    if (document.activeElement !== input) input.value = load;
-    output.textContent = quantity(load, "N");
-    input.setAttribute("aria-valuetext", quantity(load, "N"));
-  });
-}
-
 // Choose an event and look at its onset; alone, it is played. A study gives way to the row.
 function choose(number) {
   stop();
@@ -250,9 +231,9 @@ function setView(next) {
 function play() {
   if (state.playing) return stop();
   state.pick = null;
-  const { film } = run, { start, end } = played(), last = inFilm(end);
+  const { film } = run, { start, end } = played(), [first, last] = reel();
   let before = performance.now();
-  let wall = inFilm(state.time < end - 1e-12 ? Math.max(state.time, start) : start);
+  let wall = state.time < end - 1e-12 ? inFilm(Math.max(state.time, start)) : first;
   const frame = (now) => {
     state.playing = requestAnimationFrame(frame);
     const passed = Math.max(now - before, 0) / 1000;
@@ -266,7 +247,7 @@ function play() {
     state.time = Math.min(inRun(wall), end);
     redraw("row");
     if (wall >= last && !state.repeats) stop();
-    else if (wall >= last + PAUSE) wall = inFilm(start);
+    else if (wall >= last + PAUSE) wall = first;
   };
   state.playing = requestAnimationFrame(frame);
   element("play").textContent = "❚❚ Pause";
@@ -279,14 +260,9 @@ function stop() {
 }
 
 // The command that draws this run.
-function command() {
-  const { weights, ...slider } = state.slider, byHand = ["theta", "n_blocks", "normal_load"];
-  const options = Object.entries(slider).filter(([name]) => !(weights && byHand.includes(name)))
-    .map(([name, value]) => ` --${name.replace("n_", "").replace("_", "-")} ${value}`).join("");
-  if (!weights) return `precursors plot${options}`;
-  const loads = weights.map((load) => Number(load.toPrecision(6))).join(" ");
-  return `printf "%s\\n" ${loads} > loads.txt && precursors plot --weights loads.txt${options}`;
-}
+const command = () => `precursors plot${Object.entries(state.slider).map(([name, value]) =>
+  ` --${name.replace("n_", "").replace("_", "-")} ${value}`).join("")}`;
+
 function build() {
   setHtml("steps", STEPS.map(({ title }, i) => `<button type="button" data-step="${i + 1}"
     aria-label="Step ${i + 1}: ${title}">${i + 1}</button>`).join("") +
@@ -295,7 +271,7 @@ function build() {
   setHtml("sliders", Object.entries(SLIDERS).map(([id, { symbol, name, range, step, about }]) => {
     const [low, high] = step ? range : range.map(Math.log10);
     return `<label title="${plain(about)}"><b>${symbol}</b> <output id="${id}-value"></output>
-      <input type="range" id="${id}" aria-label="${name}" aria-description="${plain(about)}"
+      <input type="range" id="${id}" aria-label="${name}"
       min="${low}" max="${high}" step="${step ?? 0.01}"></label>`;
   }).join(""));
 }
@@ -309,7 +285,6 @@ function setSlider(name, position) {
     state.slider[other] = name === "mu_s" ? Math.min(wish, value) : Math.max(wish, value);
     delete state.wish[name];
   }
-  if (name === "theta" || name === "n_blocks") state.slider.weights = null;
   state.slider[name] = value;
 }
 
@@ -327,12 +302,7 @@ function listen() {
     setSlider(target.id, Number(target.value));
     solve(true);
   });
-  on("loads", "input", ({ target }) => {
-    state.slider.weights = run.weights.with(target.dataset.load, Number(target.value));
-    solve(true);
-  });
-  for (const id of ["sliders", "loads"]) on(id, "change", () => solve());
-  on("loads-part", "toggle", () => run && showLoads());
+  on("sliders", "change", () => solve());
   on("steps", "click", ({ target: { id, dataset } }) => {
     if (id === "onward" || dataset.step) goToStep(Number(dataset.step ?? state.step + 1));
   });
@@ -342,13 +312,11 @@ function listen() {
   on("next", "click", () => move(1));
   on("play", "click", play);
   on("scrubber", "input", ({ target }) => {
-    const [low, high] = [played().start, played().end].map(inFilm);
+    const [low, high] = reel();
     stop();
     Object.assign(state, { pick: null, time: inRun(low + ((high - low) * target.value) / 1000) });
   });
-  for (const button of document.querySelectorAll("[data-view]")) {
-    button.addEventListener("click", () => setView(button.dataset.view));
-  }
+  on("views", "click", ({ target: { dataset } }) => dataset.view && setView(dataset.view));
   for (const id of ["stairs", "slips"]) {
     on(id, "click", ({ offsetX }) => {
       const { start, end } = view(), { left, right } = chart.time.box;

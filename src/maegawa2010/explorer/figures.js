@@ -75,7 +75,7 @@ function showRow() {
   const { left, right } = chart.time?.box ?? { left: 0, right: 0 };
   element("cursor").style.transform = `translateX(${left + share * (right - left)}px)`;
   element("cursor").hidden = share < 0 || share > 1;
-  const [low, high] = [played().start, played().end].map(inFilm);
+  const [low, high] = reel();
   element("scrubber").value = (1000 * (inFilm(state.time) - low)) / (high - low || 1);
   const since = state.time - one?.onset;
   const pace = one && secondsOf(one) / (one.end - one.onset) / 1000;
@@ -149,7 +149,7 @@ function showStairs() {
   const { x, y, box } = axes(context, width, height, [start, end], up, [null, label], along);
   if (isLoad) {
     context.strokeStyle = context.fillStyle = palette.ink;
-    const level = y(mu_k * totalOf(run));
+    const level = y(mu_k * run.slider.normal_load);
     dashed(context, [[box.left, level], [box.right, level]]);
     write(context, "dashed: μ_k F_Z", box.right, 8, "right");
   }
@@ -185,9 +185,8 @@ function showSlips() {
 
 function showLengths() {
   const [context, width, height] = clear(element("lengths")), { n, counted } = run;
-  const last = run.events.indexOf(firstGlobal()) + 1, { mu_k } = run.slider;
-  const events = last ? run.events.slice(0, last) : run.events;
-  const highest = Math.max(1e-9, ...events.map(of("before")), mu_k * totalOf(run));
+  const { mu_k, normal_load } = run.slider, events = upToGlobal(run.events);
+  const highest = Math.max(1e-9, ...events.map(of("before")), mu_k * normal_load);
   const labels = ["Load F_X [N]", "Front length L_p / L"];
   const { x, y, box } = axes(context, width, height, [0, 1.06 * highest], [0, 1.08], labels);
   let friction = 0;

@@ -8,11 +8,9 @@
 
 const WINDOW = 0.6875; // length of a Taylor window [tau]
 const ORDER = 24; // (2 WINDOW)^ORDER / ORDER! is below 1e-19
-const FREE = 2; // mode of a block without load: it moves without friction and has no transitions
 const MOST_TRANSITIONS = 200000;
 const MOST_WINDOWS = 2000000;
 const ZERO = 16 * Number.EPSILON; // of its springs: a force below them counts as zero
-const LEAST_SHARE = 1e-4; // of the mean load: a block with less has no part in events (chain.py)
 
 // N blocks of a slider (Eqs. 9 and 10), which has the names of `Chain.from_slider`, under a
 // straight line of normal loads (Eq. 7) or under given ones.
@@ -65,7 +63,6 @@ function firstTransition({ n, c, strength }, rows, force, mode, last, end, terms
   };
   setTerms(terms, end);
   for (let i = 1; i <= last; i++) {
-    if (mode[i] === FREE) continue;
     if (mode[i]) {
       let least = 0;
       for (let r = ORDER; r >= 0; r--) {
@@ -143,24 +140,19 @@ function advance({ n, c, drive }, rows, force, last, t, terms, slip) {
   for (let i = 1; i <= Math.min(last + 1, n); i++) force[i] += c[i] * (slip[i - 1] - slip[i]);
 }
 
-// Follow the motion from where a block lets go, block 1 if all are at rest, until nothing moves,
-// and pause after every window; `note(t, block, mode, force, velocity)` hears every transition and
-// window (block 0). The result is the duration [tau]. It is one slip event, unless blocks without
-// load go on moving after it.
-const FROM_REST = { block: 1, way: 1, velocity: [] };
-function* motionFrom(chain, force, longest, note, window = WINDOW, start = FROM_REST) {
-  const { n, c, strength, weights, drive } = chain, { block: first, way: side, velocity } = start;
+// Follow a slip event, from when block 1 lets go until nothing moves; pause before every window.
+// `note(t, block, mode, force, moving)` hears every transition and window (block 0), and how many
+// blocks move.
+function* motionFrom(chain, force, longest, note, window = WINDOW) {
+  const { n, c, strength, drive } = chain;
   const rows = new Float64Array(c.length + ORDER * c.length), slip = new Float64Array(c.length);
   const mode = new Int8Array(c.length), terms = [], series = [];
-  rows.set(velocity);
   rows[0] = drive;
-  weights.forEach((w, j) => (mode[j + 1] = w ? Math.sign(velocity[j + 1] ?? 0) : FREE));
-  const isReleased = !mode[first];
-  if (isReleased) mode[first] = side;
-  let moving = 0, farthest = 0, elapsed = 0;
-  mode.forEach((m, i) => m && (moving++, (farthest = i)));
-  if (isReleased) note(0, first, side, force, rows);
+  mode[1] = 1;
+  let moving = 1, farthest = 1, elapsed = 0;
+  note(0, 1, 1, force, moving);
   while (moving && elapsed < longest) {
+    yield;
     const last = Math.min(farthest + 1, n);
     expand(chain, rows, force, mode, last);
     const end = Math.min(window, longest - elapsed);
@@ -179,10 +171,8 @@ function* motionFrom(chain, force, longest, note, window = WINDOW, start = FROM_
       farthest = Math.max(farthest, block);
       while (moving && !mode[farthest]) farthest--;
     }
-    note(elapsed, block, mode[block], force, rows);
-    yield elapsed;
+    note(elapsed, block, mode[block], force, moving);
   }
-  return elapsed;
 }
 
 // A run from rest that has not begun: transitions, and the slip events with the spring forces at
@@ -192,12 +182,9 @@ const newRun = (chain, duration) => ({
   end: 0, force: new Float64Array(chain.c.length), stopped: false,
 });
 
-// Solve a run, and pause with the time [s] in it after every window. A run that meets a limit is
-// `stopped` at its `end`.
+// Solve a run, and pause before every window. A run that meets a limit is `stopped` at its `end`.
 function* solve(run) {
-  const { chain, duration, force } = run, { n, c, tau, strength, weights, drive } = chain;
-  const least = (LEAST_SHARE * weights.reduce((sum, w) => sum + w)) / n;
-  const loaded = weights.filter((w) => w >= least).length;
+  const { chain, duration, force } = run, { n, c, tau, strength, drive } = chain;
   let windows = 0;
   for (;;) {
     const wait = ((strength[1] - (force[1] - force[2])) / (c[1] * drive)) * tau;
@@ -208,38 +195,24 @@ function* solve(run) {
       return;
     }
     force[1] = force[2] + strength[1];
-    const states = new Int8Array(c.length);
+    const event = { onset, force: force.slice(), before: force[1], first: run.time.length };
     const longest = (duration - onset) / tau;
-    let event = null, sliding = 0, elapsed = 0;
-    const end = () => {
-      run.end = elapsed < longest ? onset + elapsed * tau : duration;
-      if (!event) return;
-      const isGlobal = event.mostSliding === loaded, front = isGlobal ? n : event.front;
-      const last = run.time.length;
-      run.events.push({ ...event, front, end: run.end, after: force[1], last, isGlobal });
-      event = null;
-    };
-    const motion = motionFrom(chain, force, longest, (t, i, m, forces, rows) => {
+    let front = 1, most = 1, elapsed = 0;
+    const motion = motionFrom(chain, force, longest, (t, i, mode, forces, moving) => {
       elapsed = t;
       if (!i) return;
-      const time = onset + t * tau, hasPart = weights[i - 1] >= least;
-      if (hasPart) event ??= {
-        onset: time, force: force.slice(), before: force[1], first: run.time.length,
-        start: { block: i, way: m, velocity: rows.slice(0, c.length) }, front: 1, mostSliding: 0,
-      };
-      run.time.push(time), run.block.push(i), run.mode.push(m), run.load.push(forces[1]);
-      if (!hasPart) return;
-      sliding += Math.abs(m) - Math.abs(states[i]);
-      states[i] = m;
-      event.front = Math.max(event.front, i);
-      event.mostSliding = Math.max(event.mostSliding, sliding);
-      if (!sliding) end();
+      run.time.push(onset + t * tau), run.block.push(i), run.mode.push(mode);
+      run.load.push(forces[1]);
+      front = Math.max(front, i);
+      most = Math.max(most, moving);
     });
     while (!motion.next().done && !run.stopped) {
       run.stopped = run.time.length >= MOST_TRANSITIONS || ++windows >= MOST_WINDOWS;
-      yield onset + elapsed * tau;
+      yield;
     }
-    end();
+    run.end = elapsed < longest ? onset + elapsed * tau : duration;
+    const last = run.time.length, isGlobal = most === n;
+    run.events.push({ ...event, front, last, isGlobal, end: run.end, after: force[1] });
     if (run.stopped || elapsed >= longest) return;
   }
 }

@@ -34,7 +34,8 @@ const WORDS = {
 const twoDigits = (x) => x.toFixed(2);
 const SLIDERS = {
   theta: {
-    symbol: "θ", name: "tilt of the load, theta", range: [-1, 1], step: 0.01, write: fraction,
+    symbol: "θ", name: "tilt of the load, theta", range: [-0.99, 0.99], step: 0.01,
+    write: fraction,
     about: `How unevenly the normal load is spread. Negative: more at the trailing edge. 0: the same
       on each block. Positive: more at the leading edge.`,
   },
@@ -86,9 +87,8 @@ const STEPS = [
   {
     title: "Where does it stop?", scene: UNIFORM, pick: "longer", view: "event", plays: true,
     text: (word) => `Each sliding block takes its kinetic friction from the load
-      ${word("load")}. The ${word("line")} is what is left.
-      <b>Where it meets zero, the slip stops</b>,
-      here after ${word("blocks")}. ${word("left")} is the push before the slip, and the
+      ${word("load")}. The ${word("line")} is what is left. <b>Where it meets zero, the slip
+      stops</b>, here after ${word("blocks")}. ${word("left")} is the push before the slip, and the
       ${word("added")} what the slip adds. The next slip starts at a higher load, so its line meets
       zero farther along. Press → and see the ${word("front")} grow; now and then a shorter slip
       comes in between.`,
@@ -124,18 +124,15 @@ const STEPS = [
       ${ofTilts(({ within: { k, n } }) => Math.round((100 * k) / n))} % have the printed
       ${word("apparent")}, ${BAND.map(twoDigits).join(" to ")}, and
       <b>${ALL_SIX ? `${ALL_SIX[0] || "none"} of ${ALL_SIX[1]}` : "few"} all six numbers of the
-      paper</b>. The line is
-      your slider: move K, or V.`,
+      paper</b>. The line is your slider: move K, or V.`,
   },
   {
     title: "What holds?", scene: UNIFORM, blocks: 40, pick: "global", view: "all",
     study: drawBlocks,
-    text: (word) => `<b>After the first global slip the time mean of
-      ${word("load")} is μ_k F_Z,
+    text: (word) => `<b>After the first global slip the time mean of ${word("load")} is μ_k F_Z,
       for every loading and number of blocks</b>, as the drive does the work that friction takes.
-      In the
-      paper’s scenes it is ${ofTilts(({ mean }) => mean?.toFixed(4) ?? "–")} F_Z. The largest
-      F_X lies above it by as much as the slips are large. Many blocks make them small: with
+      In the paper’s scenes it is ${ofTilts(({ mean }) => mean?.toFixed(4) ?? "–")} F_Z. The
+      largest F_X lies above it by as much as the slips are large. Many blocks make them small: with
       ${digits(DATA.noise)} % noise in the loads, the medians of ${word("apparent")} are
       ${ofTilts(({ medians }) => medians[0][2].toFixed(3))} with ${TILTS[0].medians[0][0]} blocks,
       and ${ofTilts(({ medians }) => medians.at(-1)[2].toFixed(3))} with

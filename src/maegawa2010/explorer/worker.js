@@ -71,14 +71,13 @@ function agreement(run, twin, slider, tolerance) {
 // block 0, and its events.
 function send(isFinal) {
   const { id, slider, tolerance, runs } = job, [run, twin] = runs, last = run.events.at(-1)?.last;
-  const { n, k, weights, strength } = run.chain, { end, force, stopped } = run;
+  const { n, k, weights, strength } = run.chain, { events, end, force, stopped } = run;
   const column = (name, first, final) => [first, ...run[name].slice(0, last ?? 0), final];
   const arrays = {
     time: Float64Array.from(column("time", 0, end)),
     load: Float64Array.from(column("load", 0, force[1])),
     block: Uint8Array.from(column("block", 0, 0)), mode: Int8Array.from(column("mode", 0, 0)),
   };
-  const events = run.events.map(({ start, ...event }) => event);
   const known = agreement(run, twin, slider, tolerance), chain = { n, k, weights, strength };
   postMessage({ id, isFinal, slider, ...chain, arrays, events, end, force, stopped, known });
   job.isShown = true;
@@ -86,7 +85,7 @@ function send(isFinal) {
 
 // The motion in an event: times, forces and modes at the ends of small steps.
 function* follow({ chain, duration, events }, { id, event }) {
-  const { onset, end, force, start } = events[event], { n, tau } = chain;
+  const { onset, end, force } = events[event], { n, tau } = chain;
   const mode = new Int8Array(n + 2), length = (end - onset) / tau;
   const window = Math.min(Math.max(FINE, length / MOST_STATES), WINDOW);
   const time = [], forces = [], modes = [];
@@ -97,10 +96,6 @@ function* follow({ chain, duration, events }, { id, event }) {
     due = t + length / MOST_STATES;
     time.push(onset + t * tau), forces.push(force.slice()), modes.push(mode.slice());
   };
-  const longest = (duration - onset) / tau;
-  for (const t of motionFrom(chain, force.slice(), longest, note, window, start)) {
-    if (t > length) break;
-    yield t;
-  }
+  yield* motionFrom(chain, force.slice(), (duration - onset) / tau, note, window);
   postMessage({ kind: "motion", id, event, time, forces, modes });
 }
