@@ -3,7 +3,6 @@
 import json
 import re
 import shlex
-from pathlib import Path
 from time import perf_counter
 
 import numpy as np
