@@ -13,6 +13,8 @@ from flint import arb, arb_poly, ctx
 from scipy.linalg import expm
 
 from precursors.proof.event_roots import (
+    VALID,
+    WINDOW,
     EventFunction,
     Undecided,
     event_functions,
@@ -29,8 +31,6 @@ from precursors.proof.motion import (
 from precursors.proof.tube import Proof
 
 BITS = 64
-END = 1.0
-VALID = 1.125
 # How closely a root is isolated: Newton's method has stopped to halve the enclosure.
 ISOLATED = 1e-15
 # NumPy's roots of random polynomials of degree 5 are good to so much.
@@ -61,7 +61,7 @@ def through(*roots: float, **how):
 
 def find(*functions: EventFunction, back: float = 0.0):
     with ctx.workprec(BITS):
-        found = first_crossing(list(functions), END, VALID, arb(back), BITS)
+        found = first_crossing(list(functions), arb(back))
         return found and (found[0].block, found[1])
 
 
@@ -97,7 +97,7 @@ def test_random_polynomials_have_the_first_root_that_numpy_finds():
         coefficients[0] = abs(coefficients[0])
         roots = np.polynomial.polynomial.polyroots(coefficients)
         real = roots.real[
-            (abs(roots.imag) < 1e-12) & (roots.real > 0) & (roots.real < END)
+            (abs(roots.imag) < 1e-12) & (roots.real > 0) & (roots.real < WINDOW)
         ]
         found = find(function(coefficients.tolist()))
         assert (found is None) == (not real.size)
@@ -191,7 +191,7 @@ def exact_rows(
 def functions_of(proof: Proof, distance: float, bits: int) -> list[EventFunction]:
     with ctx.workprec(BITS):
         state = replace(proof.state, distance=arb(distance))
-        return event_functions(proof.bounds, state, proof.fresh, VALID, bits)
+        return event_functions(proof.bounds, state, proof.fresh, bits)
 
 
 @pytest.fixture(scope="module")

@@ -24,7 +24,7 @@ def test_results_come_in_order_and_a_terminal_is_told_how_much_is_done(
         return 2 * number
 
     tasks = [partial(task, number) for number in range(8)]
-    assert waiting.in_threads("running", tasks, 2) == list(range(0, 16, 2))
+    assert waiting.in_threads(tasks, 2) == list(range(0, 16, 2))
     is_told = re.search(r"running: [1-9]\d%", stream.getvalue()) is not None
     assert is_told == is_terminal
 
@@ -40,6 +40,6 @@ def test_after_an_error_no_task_is_started_and_one_at_work_is_not_waited_for():
     tasks = [partial(task, seconds) for seconds in (0, *[1] * 9)]
     start = time.monotonic()
     with pytest.raises(ZeroDivisionError):
-        waiting.in_threads("running", tasks, 2)
+        waiting.in_threads(tasks, 2)
     assert time.monotonic() - start < 0.5
     assert len(begun) < 4

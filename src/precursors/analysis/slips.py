@@ -51,7 +51,7 @@ def slip_columns(slips: NDArray[np.void], chain: Chain) -> dict[str, NDArray[Any
     """Columns of `slip_table` by name, of slip events of a chain."""
     return {
         **{name: slips[name] for name in SLIP.names or ()},
-        "counted": counted(slips["front"], slips["is_global"]),
+        "counted": counted(slips),
         "front_length_m": slips["front"] * chain.length / chain.n_blocks,
         **{
             column: np.full(len(slips), getattr(chain, name))
@@ -68,13 +68,14 @@ def find_precursors(slips: pd.DataFrame) -> pd.DataFrame:
     equal ones are counted. Without a global slip all events that are not short are
     returned.
     """
-    return slips[counted(slips["front"], slips["is_global"])]
+    return slips[counted(slips)]
 
 
-def counted(front: ArrayLike, is_global: ArrayLike) -> NDArray[np.bool_]:
+def counted(slips: pd.DataFrame | NDArray[np.void]) -> NDArray[np.bool_]:
     """Which events Fig. 13 counts: see `find_precursors`."""
-    is_short = np.asarray(front) < np.maximum.accumulate(front)
-    return until_global(is_global) & ~is_short
+    front = np.asarray(slips["front"])
+    is_short = front < np.maximum.accumulate(front)
+    return until_global(slips["is_global"]) & ~is_short
 
 
 def until_global(is_global: ArrayLike) -> NDArray[np.bool_]:

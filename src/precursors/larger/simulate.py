@@ -85,7 +85,7 @@ def simulate_larger(
     end = End(duration, *ends_at, lifting.min(), *limits)
     steps_of = longest_steps(m, chain, step)
     ((rows, points, time, steps),) = in_threads(
-        "running", [partial(march, m, state, end, steps_of)]
+        [partial(march, m, state, end, steps_of)]
     )
     if state.force[0] > lifting.min():
         raise ValueError(

@@ -13,6 +13,10 @@ from flint import arb, arb_poly, ctx
 from precursors.model.chain import FREE
 from precursors.proof.motion import Constants, EnclosedState, expand, force_rate
 
+# A window without a transition, and how far beyond its end the polynomials hold [T].
+WINDOW = 1.0
+VALID = 1.125
+
 
 class Undecided(Exception):
     """A question about some blocks that cannot be decided: more bits are needed, or
@@ -54,14 +58,14 @@ class EventFunction:
 
 
 def event_functions(
-    constants: Constants, state: EnclosedState, fresh: set[int], valid: float, bits: int
+    constants: Constants, state: EnclosedState, fresh: set[int], bits: int
 ) -> list[EventFunction]:
     """Velocities of the sliding blocks and margins of the stuck ones that feel a
-    change, up to `valid` [T].
+    change, up to `VALID`.
 
     `fresh` are the blocks that have just begun to slide.
     """
-    polynomials, rests = expand(constants, state, valid, bits)
+    polynomials, rests = expand(constants, state, VALID, bits)
     # The centre is given the exact condition of a transition, and room for that.
     distance = 2 * state.distance
     functions = []
@@ -92,13 +96,12 @@ def event_functions(
 
 
 def first_crossing(
-    functions: list[EventFunction], end: float, valid: float, back: arb, bits: int
+    functions: list[EventFunction], back: arb
 ) -> tuple[EventFunction, arb] | None:
     """Return the function that crosses zero first and an enclosure of its root; None if
-    none does by `end`.
+    none does in the window.
 
-    Times are in T: the polynomials hold up to `valid`, and a run may have had the
-    transition at the start by `back` before zero.
+    A run may have had the transition at the start by `back` [T] before zero.
 
     Raises
     ------
@@ -106,8 +109,9 @@ def first_crossing(
         If two roots overlap, or the sign of a function cannot be decided.
     """
     found: list[tuple[arb, EventFunction]] = []
+    end = WINDOW
     for function in functions:
-        root = _crossing(function, end, valid, back, bits)
+        root = _crossing(function, end, back)
         if root is not None:
             found.append((root, function))
             end = min(end, math.nextafter(float(root.upper()), math.inf))
@@ -123,11 +127,9 @@ def first_crossing(
     return first, root
 
 
-def _crossing(
-    function: EventFunction, end: float, valid: float, back: arb, bits: int
-) -> arb | None:
+def _crossing(function: EventFunction, end: float, back: arb) -> arb | None:
     """First root of a function up to `end`, or None once it is proved positive."""
-    smallest = arb(2) ** -(bits // 2 + 8)
+    smallest = arb(2) ** -(ctx.prec // 2 + 8)
     pieces = [(arb(0), arb(end), True)]
     while pieces:
         a, b, at_start = pieces.pop()
@@ -147,7 +149,7 @@ def _crossing(
         if function.fresh and at_start and (slope > 0 or function.bend(box) > 0):
             continue
         if falling:
-            root = _falling_root(function, a, b, valid)
+            root = _falling_root(function, a, b)
             if root is not None:
                 if at_start and not root > back:
                     raise Undecided(f"whether {function.what}", (function.block,), root)
@@ -158,13 +160,13 @@ def _crossing(
     return None
 
 
-def _falling_root(function: EventFunction, a: arb, b: arb, valid: float) -> arb | None:
+def _falling_root(function: EventFunction, a: arb, b: arb) -> arb | None:
     """Enclose the root of a function that falls on [a, b], where a root next to b may
     lie a little beyond."""
     if not function.value(b) < 0:
         b = b + (b - a)
         if not (
-            b <= valid and function.slope(a.union(b)) < 0 and function.value(b) < 0
+            b <= VALID and function.slope(a.union(b)) < 0 and function.value(b) < 0
         ):
             return None
     root = a.union(b)
@@ -179,11 +181,12 @@ def _falling_root(function: EventFunction, a: arb, b: arb, valid: float) -> arb 
         root = closer
 
 
-def newton(function: arb_poly, root: arb, bits: int) -> arb:
-    """Return an exact number near the root, to about `bits` bits; what is left of it is
-    counted later."""
+def newton(function: arb_poly, root: arb) -> arb:
+    """Return an exact number near the root, to about the working precision; what is
+    left of it is counted later."""
     slope = function.derivative()
     x = root.mid()
+    bits = ctx.prec
     good = 24
     while good < bits:
         good = min(2 * good, bits)

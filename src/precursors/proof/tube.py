@@ -34,6 +34,7 @@ from flint import arb, ctx
 from precursors.model.chain import FREE
 from precursors.proof.certificate import Certificate
 from precursors.proof.event_roots import (
+    WINDOW,
     EventFunction,
     Undecided,
     event_functions,
@@ -58,9 +59,6 @@ from precursors.support.waiting import bar
 GUARD_BITS = 40
 # Precisions are a multiple of this, for which constants are kept.
 PRECISION_STEP = 32
-# A window without a transition, and how far beyond its end the polynomials hold [T].
-WINDOW = 1.0
-VALID = 1.125
 
 
 class Proved(NamedTuple):
@@ -223,10 +221,8 @@ class Proof:
             with ctx.workprec(bits):
                 try:
                     constants = self.constants()
-                    functions = event_functions(
-                        constants, self.state, self.fresh, VALID, bits
-                    )
-                    return first_crossing(functions, WINDOW, VALID, self.gap, bits)
+                    functions = event_functions(constants, self.state, self.fresh, bits)
+                    return first_crossing(functions, self.gap)
                 except Undecided:
                     if bits >= self.precision():
                         raise
@@ -261,7 +257,7 @@ class Proof:
                 function = constants.strength[i] - event.direction * force
             else:
                 function = state.mode[i] * polynomials[i]
-            step = newton(function, root, ctx.prec)
+            step = newton(function, root)
             advance(constants, state, polynomials, rests[0], step)
             forces = list(state.force)
             rates = list(state.rate)

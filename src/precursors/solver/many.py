@@ -80,7 +80,7 @@ def simulate_many(
         runs.update(zip(batch, made, strict=True))
 
     tasks = [partial(run, batch) for batch in _batches(chains, threads)]
-    in_threads("running", tasks, threads)
+    in_threads(tasks, threads)
     return [runs[j] for j in range(len(chains))]
 
 

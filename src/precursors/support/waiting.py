@@ -27,9 +27,7 @@ def bar(work: str, total: float, steps: Iterable[Any] | None = None) -> Any:
     )
 
 
-def in_threads(
-    work: str, tasks: Sequence[Callable[[], Result]], threads: int = 1
-) -> list[Result]:
+def in_threads(tasks: Sequence[Callable[[], Result]], threads: int = 1) -> list[Result]:
     """Run tasks that release the GIL in threads, and say how many are done.
 
     After Ctrl-C or an error no task is started, and running ones are not waited for.
@@ -37,4 +35,4 @@ def in_threads(
     # Its threads are daemons, for which nobody waits at the end, unlike those of
     # concurrent.futures.
     with ThreadPool(threads) as pool:
-        return list(bar(work, len(tasks), pool.imap(lambda task: task(), tasks)))
+        return list(bar("running", len(tasks), pool.imap(lambda task: task(), tasks)))

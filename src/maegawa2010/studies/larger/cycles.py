@@ -90,7 +90,7 @@ def law_or_none(larger: LargerChain) -> Law | None:
 def run_settled(study: Study) -> pd.DataFrame:
     """Run every member until it settles: the members, each with `run_past`."""
     members = study.members.to_dict("records")
-    rows = in_threads("running", [partial(run_past, study.seed, at) for at in members])
+    rows = in_threads([partial(run_past, study.seed, at) for at in members])
     return study.members.join(pd.DataFrame(rows, study.members.index))
 
 

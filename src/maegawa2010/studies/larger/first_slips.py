@@ -86,7 +86,7 @@ def larger_tables(
 
 def in_all_threads(tasks: Sequence[Callable[[], dict[str, Any]]]) -> pd.DataFrame:
     """Table of what tasks return."""
-    rows = in_threads("running", tasks, untyped.config.NUMBA_NUM_THREADS)
+    rows = in_threads(tasks, untyped.config.NUMBA_NUM_THREADS)
     return varied(pd.DataFrame(rows))
 
 

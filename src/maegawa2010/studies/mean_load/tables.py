@@ -36,7 +36,7 @@ def mean_load_table(
         partial(mean_of, varied, chain, seconds)
         for varied, chain, seconds in cases(slider, settings)
     ]
-    return pd.DataFrame(in_threads("running", tasks))
+    return pd.DataFrame(in_threads(tasks))
 
 
 def cases(
