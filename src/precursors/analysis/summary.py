@@ -22,7 +22,6 @@ class Summary(NamedTuple):
     events_to_global_slip: int  # up to and including the first; all without one
     events_counted: int  # those of Fig. 13
     events_in_all: int  # of the whole run
-    n_global: int  # global slips of the whole run
     reached: bool  # whether there is a global slip
     mu_sapp: float = math.nan  # Eq. 1
     largest_load_N: float = math.nan  # F_X, up to the first global slip
@@ -41,8 +40,8 @@ def summarise(runs: Iterable[Record]) -> pd.DataFrame:
     -------
     DataFrame, one row per run
         events_to_global_slip (all slip events up to and including the first global
-        slip), events_counted (those of Fig. 13), events_in_all, n_global and
-        transitions (all of the run), reached (whether there is a global slip); mu_sapp
+        slip), events_counted (those of Fig. 13), events_in_all and transitions (all of
+        the run), reached (whether there is a global slip); mu_sapp
         [1] (Eq. 1), largest_load_N (F_X up to the first global slip); of that slip
         global_slip_s and global_slip_end_s, and global_slip_load_N (F_X at its onset);
         without a global slip mu_sapp and all after it are NaN, and the counts are those
@@ -76,7 +75,6 @@ def summary_of(slips: Columns) -> Summary:
         events_to_global_slip=len(is_global) if first is None else first + 1,
         events_counted=int(np.sum(slips["counted"])),
         events_in_all=len(is_global),
-        n_global=int(is_global.sum()),
         reached=first is not None,
     )
     if first is None:

@@ -25,8 +25,8 @@ class CarriedState(NamedTuple):
     motions with the same transitions does not grow: free motion conserves it, and a
     stop reduces it. So roundings add up: those of an interval one by one, as they may
     all go the same way, those of different intervals as squares. One rounding a step
-    comes to `rounding` [sqrt(J)], which is `velocity_rounding` [m/s] of a velocity and
-    `force_rounding` [N] of the net force on each block.
+    comes to `rounding` [sqrt(J)]: over sqrt(m) that of a velocity [m/s], and times
+    `per_force` that of the net force on each block [N].
     """
 
     mode: IntArray
@@ -55,16 +55,6 @@ class CarriedState(NamedTuple):
         pushed = (self.velocity != 0.0) | (self.net_force() != 0.0)
         pushed[0] = True
         return moves & (moves & pushed).any()
-
-    @property
-    def force_rounding(self) -> FloatArray:
-        """One rounding of the net force on each block [N], shape (N,)."""
-        return self.rounding * self.per_force
-
-    @property
-    def velocity_rounding(self) -> float:
-        """One rounding of a velocity [m/s]."""
-        return float(self.rounding[0]) / math.sqrt(self.mass)
 
 
 def start_of(run: Run) -> CarriedState:

@@ -171,7 +171,7 @@ class Auditor:
         force = state.net_force()[block - 1]
         strength = state.strength[block - 1]
         what = f"block {block} changes its mode while it moves at"
-        self.check(speed, state.velocity_rounding, what, "m/s")
+        self.check(speed, state.rounding[0] / math.sqrt(state.mass), what, "m/s")
         if mode == 0:
             what = "sticks with a force beyond mu_s w"
             self.check_force(block, what, abs(force) - strength)
@@ -196,7 +196,7 @@ class Auditor:
 
     def check_force(self, block: int, what: str, wrong: float) -> None:
         """A net force is not wrong by more than its rounding."""
-        rounding = self.state.force_rounding[block - 1]
+        rounding = self.state.rounding[0] * self.state.per_force[block - 1]
         self.check(wrong, rounding, f"block {block} {what}, by", "N")
 
     def check_time(self, time: float, what: str) -> None:

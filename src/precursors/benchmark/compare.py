@@ -91,7 +91,6 @@ class Comparison:
     transitions_right: int
     transitions_found: int
     transitions_true: int
-    slips_right: int
     time_errors: FloatArray
     load_error: float
     first_difference: float
@@ -155,7 +154,6 @@ def compare(run: Record, truth: Truth) -> Comparison:
         transitions_right=n,
         transitions_found=len(found),
         transitions_true=len(true),
-        slips_right=n_slips,
         time_errors=abs(found["time"][:n] - true["time"][:n] - truth.time_rest[:n]),
         load_error=_largest(abs(at_onsets.to_numpy())),
         first_difference=float(
