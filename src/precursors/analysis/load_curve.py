@@ -17,8 +17,6 @@ PHASE_PER_STEP = np.pi / 4
 MOST_HALVINGS = 30
 # Points at transitions, and as many where block 1 slides, at most: many a pixel.
 MOST_POINTS = 200_000
-# In an array: bounds the memory on long chains.
-NUMBERS_AT_ONCE = 2_000_000
 
 
 def load_curve(run: Record) -> tuple[FloatArray, FloatArray]:
@@ -99,11 +97,6 @@ def _seen(transitions: NDArray[np.void]) -> NDArray[np.void]:
 
 def _loads_and_slopes(run: Run, times: FloatArray) -> tuple[FloatArray, FloatArray]:
     """F_X [N] and dF_X/dt = K (V - v_1) [N/s] at some times."""
-    chain = run.chain
-    parts = 1 + times.size * chain.n_blocks // NUMBERS_AT_ONCE
-    of_first = []
-    for part in np.array_split(times, parts):
-        force, velocity = run.forces_and_velocities(part)
-        of_first.append((force[:, 0].copy(), velocity[:, 0].copy()))
-    loads, velocities = np.concatenate(of_first, axis=1)
-    return loads, chain.drive_stiffness * (chain.drive_velocity - velocities)
+    loads, velocities = run.forces_and_velocities(times, 1)[..., 0]
+    slopes = run.chain.drive_stiffness * (run.chain.drive_velocity - velocities)
+    return loads, slopes

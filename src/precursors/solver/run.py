@@ -151,23 +151,30 @@ class Run(Record):
 
     def tangential_load(self, times: ArrayLike) -> FloatArray:
         """Tangential load F_X = K(V t - x_1) [N], shape (len(times),) (Eq. 3)."""
-        return self.forces_and_velocities(times)[0][:, 0]
+        return self.forces_and_velocities(times, 1)[0][:, 0]
 
     def spring_forces(self, times: ArrayLike) -> FloatArray:
         """Force in the spring behind each block [N], shape (len(times), N); column 0 is
         F_X."""
         return self.forces_and_velocities(times)[0]
 
-    def forces_and_velocities(self, times: ArrayLike) -> FloatArray:
-        """Spring forces [N] and velocities [m/s], shape (2, len(times), N): the state,
-        apart from the drive's."""
+    def forces_and_velocities(
+        self, times: ArrayLike, n_blocks: int | None = None
+    ) -> FloatArray:
+        """Spring forces [N] and velocities [m/s] of the first blocks, by default of
+        all, shape (2, len(times), n_blocks): the state, apart from the drive's."""
         # Imported here: reading a run must not load Numba.
         from precursors.solver import kernel
 
         when = self._times(times)
         order = np.argsort(when, kind="stable")
         found = kernel.evaluate(
-            self.chain, when[order], self.transitions, self.intervals, self.states
+            self.chain,
+            when[order],
+            self.transitions,
+            self.intervals,
+            self.states,
+            n_blocks or self.chain.n_blocks,
         )
         return found[:, np.argsort(order)]
 

@@ -35,14 +35,15 @@ def evaluate(
     transitions: NDArray[np.void],
     intervals: FloatArray,
     states: States,
+    n_blocks: int,
 ) -> FloatArray:
-    """Spring forces [N] and velocities [m/s] of the blocks, shape (2, number of times,
-    N), at each of `sorted_times` [s]."""
+    """Spring forces [N] and velocities [m/s] of the first blocks, shape (2, number of
+    times, n_blocks), at each of `sorted_times` [s]."""
     # Times of the start and of the transitions; the state stored last at each time.
     instants = np.append(0.0, transitions["time"])
     stored = instants[states.after] + states.offset
     nearest = np.searchsorted(stored, sorted_times, side="right") - 1
-    found = np.empty((2, len(sorted_times), chain.n_blocks))
+    found = np.empty((2, len(sorted_times), n_blocks))
     go_through(
         np.array(parameters(chain)),
         np.array(chain.weights),
@@ -102,7 +103,7 @@ def go_through(
             offset += WINDOW * chain.tau
         before[:] = state
         propagate(max(since - offset, 0.0) / chain.tau, chain, motion)
-        for i in range(chain.n_blocks):
+        for i in range(found.shape[2]):
             found[0, q, i] = motion.spring_force[i + 1]
             found[1, q, i] = motion.velocity[i + 1] * chain.speed
             mode = motion.mode[i + 1]
