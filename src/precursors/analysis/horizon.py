@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from precursors.analysis.events import agreeing
+from precursors.analysis.events import transitions_right
 from precursors.model.chain import FloatArray
 from precursors.model.checks import positive
 from precursors.solver.many import simulate_many
@@ -85,11 +85,7 @@ def predicted_errors(run: Run) -> PredictedErrors:
     """
     time = run.transitions["time"].astype(np.float64)
     others = neighbours(run)
-    changes = ["block", "mode"]
-    n = min(
-        agreeing(run.transitions[changes], other.transitions[changes])
-        for other in others
-    )
+    n = min(transitions_right(other, run) for other in others)
     following = [
         one.transitions["time"][n] for one in (run, *others) if len(one.transitions) > n
     ]

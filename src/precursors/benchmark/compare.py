@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from precursors.analysis.events import agreeing
-from precursors.analysis.slips import find_slips, first_global
+from precursors.analysis.events import agreeing, slip_events, transitions_right
+from precursors.analysis.slips import first_global
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.run import Record
 
@@ -108,9 +108,9 @@ def until_global_slip(run: Record) -> Record:
 
     Without one, or if it does not end, nothing is cut.
     """
-    slips = find_slips(run)
+    slips = slip_events(run)
     first = first_global(slips["is_global"])
-    end = np.nan if first is None else float(slips["end"].iloc[first])
+    end = np.nan if first is None else float(slips["end_s"][first])
     if np.isnan(end):
         return run
     transitions = run.transitions[run.transitions["time"] <= end]
@@ -140,33 +140,20 @@ def compare(run: Record, truth: Truth) -> Comparison:
     found = run.transitions
     true = true_run.transitions
     n = transitions_right(run, true_run)
-    slips = find_slips(run)
-    true_slips = find_slips(true_run)
-    n_slips = agreeing(
-        slips[OUTCOME].to_records(index=False),
-        true_slips[OUTCOME].to_records(index=False),
-    )
-    onsets = np.searchsorted(true["time"], true_slips["onset"][:n_slips])
-    at_onsets = (slips["load_before"] - true_slips["load_before"])[
-        :n_slips
-    ] - truth.load_rest[onsets]
+    slips = slip_events(run)
+    true_slips = slip_events(true_run)
+    n_slips = agreeing(slips[OUTCOME], true_slips[OUTCOME])
+    onsets = np.searchsorted(true["time"], true_slips["onset_s"][:n_slips])
+    loads, true_loads = (of["load_before_N"][:n_slips] for of in (slips, true_slips))
     return Comparison(
         transitions_right=n,
         transitions_found=len(found),
         transitions_true=len(true),
         time_errors=abs(found["time"][:n] - true["time"][:n] - truth.time_rest[:n]),
-        load_error=_largest(abs(at_onsets.to_numpy())),
+        load_error=_largest(abs(loads - true_loads - truth.load_rest[onsets])),
         first_difference=float(
             min([*found["time"][n : n + 1], *true["time"][n : n + 1]], default=np.inf)
         ),
-    )
-
-
-def transitions_right(run: Record, true: Record) -> int:
-    """Number of transitions before the first that is missing or whose block or mode is
-    wrong."""
-    return agreeing(
-        run.transitions[["block", "mode"]], true.transitions[["block", "mode"]]
     )
 
 
