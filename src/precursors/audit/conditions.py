@@ -217,7 +217,17 @@ def prove(conditions, duration, tolerance, most):
 
 @inner
 def cut(
-    conditions, column, start, stop, low, rise, tolerance, most, lowest, when, modal
+    conditions,
+    column,
+    start,
+    stop,
+    low,
+    rise,
+    tolerance,
+    most,
+    lowest,
+    when,
+    modal,
 ):
     """Go through a cell, at whose start value and slope are `low` and `rise`, in steps
     that can be proved; return the number of values computed."""

@@ -5,9 +5,8 @@ import logging
 import shlex
 import sys
 from argparse import Namespace
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 from importlib.metadata import version as installed_version
 from pathlib import Path
 from typing import Any
@@ -266,7 +265,6 @@ def run_of_options(arguments: Namespace) -> Record:
 
     event.register("numba:compile", Announcement())  # the first run takes long
     slider = given(arguments, SLIDER_OPTIONS)
-    solve: Callable[..., Record]
     measured = given(arguments, MEASURED)
     chain = _chain(slider, choice_of(arguments), **measured)
     if measured:
@@ -277,14 +275,13 @@ def run_of_options(arguments: Namespace) -> Record:
             f"F_Z = {chain.normal_load:g} N"
         )
     added = given(arguments, LARGER)
-    if any(added.values()):
+    how = given(arguments, RUN)
+    try:
+        if not any(added.values()):
+            return simulate(chain, **how)
         from precursors.larger.chain import LargerChain
 
-        solve = LargerChain(chain, **added).simulate
-    else:
-        solve = partial(simulate, chain)
-    try:
-        return solve(**given(arguments, RUN))
+        return LargerChain(chain, **added).simulate(**how)
     except TransitionLimitError as error:
         if arguments.command != "simulate" or arguments.output is None:
             raise Refused(str(error)) from error

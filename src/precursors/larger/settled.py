@@ -21,12 +21,12 @@ def settled(run: Record, nucleus: float) -> dict[str, Any]:
     before each, since the last global slip, whose fronts go beyond `PAST` l_c.
     """
     slips = events_of(run, nucleus).query("is_global")
-    peaks = slips["peak"]
-    period = period_of(peaks.to_numpy(), SETTLED)
+    peaks = slips["peak"].to_numpy()
+    period = period_of(peaks, SETTLED)
     is_late = slips["onset"] > 0.5 * run.duration
     late = slips.tail(period) if period else slips[is_late]
     return {
-        "peaks": peaks.to_numpy(),
+        "peaks": peaks,
         "period": period,
         "coefficient": late["peak"].mean(),
         "precursors": late["precursors"].mean(),

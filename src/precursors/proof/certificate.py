@@ -7,13 +7,18 @@ import gzip
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
-from decimal import Context, Decimal, Inexact
+from decimal import Context, Inexact
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from precursors.model.checks import Until, checked_until, whole
-from precursors.proof.exact_chain import ExactChain, exact_start, written_fraction
+from precursors.proof.exact_chain import (
+    ExactChain,
+    as_decimal,
+    exact_start,
+    written_fraction,
+)
 from precursors.support.files import AnyPath, write_whole
 
 FORMAT = "precursors certificate 2"
@@ -225,9 +230,7 @@ def _certificate(content: Mapping[str, Any]) -> Certificate:
 
 def _text(x: Fraction) -> str:
     """Write a decimal number exactly."""
-    return str(
-        EXACT.divide(Decimal(x.numerator), Decimal(x.denominator)).normalize(EXACT)
-    ).lower()
+    return str(as_decimal(x, EXACT).normalize(EXACT)).lower()
 
 
 def _enclosure_text(enclosure: Enclosure) -> tuple[str, str]:

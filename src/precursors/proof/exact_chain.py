@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from decimal import Context, Decimal
 from fractions import Fraction
 from numbers import Rational, Real
 
@@ -140,6 +141,11 @@ def exact(name: str, value: object) -> Fraction:
     raise ValueError(
         f'{name} must be a finite number, or one in quotes as "5/6", but is {value!r}'
     )
+
+
+def as_decimal(x: Fraction, context: Context) -> Decimal:
+    """Return a fraction as a decimal number, rounded as the context says."""
+    return context.divide(Decimal(x.numerator), Decimal(x.denominator))
 
 
 def exact_start(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -18,7 +18,13 @@ from precursors.proof.certificate import (
     Enclosure,
     Tie,
 )
-from precursors.proof.exact_chain import ExactChain, Number, exact, exact_start
+from precursors.proof.exact_chain import (
+    ExactChain,
+    Number,
+    as_decimal,
+    exact,
+    exact_start,
+)
 from precursors.support.files import AnyPath
 
 if TYPE_CHECKING:
@@ -121,7 +127,7 @@ def certify(
             t.block,
             t.mode,
             _rounded(_enclosure_of(t.tangential_load)),
-            _rounded_down(_enclosure_of(t.slope).lower),
+            _rounded_down(t.slope),
         )
         for t in proof.transitions
     )
@@ -178,7 +184,7 @@ def _tie(failure: Undecided) -> Tie:
         _rounded(time),
         failure.blocks,
         failure.question,
-        Fraction(_round_up(2 * time.radius)),
+        Fraction(as_decimal(2 * time.radius, ROUND_UP)),
     )
 
 
@@ -191,10 +197,13 @@ def _differences(certificate: Certificate) -> Iterator[str]:
         where = f"transition {number}, t = {float(proved.time):.9g} s"
         if (said.block, said.mode) != (proved.block, proved.mode):
             yield f"{where}: block {proved.block} goes to mode {proved.mode:+d}, which is not what is stated"
-        if not said.time.contains(_enclosure_of(proved.time)):
-            yield f"{where}: its time is not proved within {float(said.time.radius):.3g} s"
-        if not said.tangential_load.contains(_enclosure_of(proved.tangential_load)):
-            yield f"{where}: its load is not proved within {float(said.tangential_load.radius):.3g} N"
+        for what, unit, wide, ball in (
+            ("time", "s", said.time, proved.time),
+            ("load", "N", said.tangential_load, proved.tangential_load),
+        ):
+            if not wide.contains(_enclosure_of(ball)):
+                within = f"{float(wide.radius):.3g} {unit}"
+                yield f"{where}: its {what} is not proved within {within}"
         if said.slope > _enclosure_of(proved.slope).lower:
             yield f"{where}: a slope of {float(said.slope):.3g} is not proved"
     if len(certificate.transitions) != len(proof.transitions):
@@ -210,6 +219,12 @@ def _differences(certificate: Certificate) -> Iterator[str]:
         yield f"the tie is at t = {float(failure.time):.9g} s"
 
 
+def _rounded_down(slope: arb) -> Fraction:
+    """Round a slope down to a decimal number of four digits."""
+    least = _enclosure_of(slope).lower * SPARE_OF_SLOPE
+    return Fraction(as_decimal(least, ROUND_DOWN))
+
+
 def _enclosure_of(ball: arb) -> Enclosure:
     return Enclosure(_fraction(ball.mid()), _fraction(ball.rad()))
 
@@ -223,20 +238,8 @@ def _rounded(enclosure: Enclosure) -> Enclosure:
     """Round an enclosure outward to one of decimal numbers."""
     # 10^-decimals is at most a hundredth of the radius, or at the least decimals that
     # are written
-    digit = _round_up(enclosure.radius).adjusted()
+    digit = as_decimal(enclosure.radius, ROUND_UP).adjusted()
     decimals = min(DECIMALS, max(0, 2 - digit)) if enclosure.radius else DECIMALS
     midpoint = round(enclosure.midpoint, decimals)
-    radius = _round_up((abs(midpoint - enclosure.midpoint) + enclosure.radius) * SPARE)
-    return Enclosure(midpoint, Fraction(radius))
-
-
-def _round_up(x: Fraction) -> Decimal:
-    """Round a number up to a decimal one of three digits."""
-    return ROUND_UP.divide(Decimal(x.numerator), Decimal(x.denominator))
-
-
-def _rounded_down(x: Fraction) -> Fraction:
-    """Round a slope down to a decimal number of four digits."""
-    spared = x * SPARE_OF_SLOPE
-    least = ROUND_DOWN.divide(Decimal(spared.numerator), Decimal(spared.denominator))
-    return Fraction(least)
+    radius = (abs(midpoint - enclosure.midpoint) + enclosure.radius) * SPARE
+    return Enclosure(midpoint, Fraction(as_decimal(radius, ROUND_UP)))
