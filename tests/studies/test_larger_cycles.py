@@ -130,14 +130,14 @@ def test_the_committed_first_slips_are_those_of_the_library():
 
 
 def test_the_committed_coefficients_are_those_of_the_library():
-    study = settled_study(CONFIG["chain"], CONFIG["larger"]["settled"])
-    chosen = study.members.query(
-        "study == 'map' and even_length == 0.27 and relaxation_time == 1.4e-4"
-        " and past == 2 and theta < 0"
-    )
-    there = committed("larger_settled_full").loc[chosen.index]
-    [member] = chosen.to_dict("records")
-    again = run_past(study.seed, member)["coefficient"]
+    point = {"even_length": [0.27], "relaxation_time": [1.4e-4], "theta": ["-5/6"]}
+    settings = CONFIG["larger"]["settled"]
+    map_of_one = settings["studies"]["map"] | point
+    settings = settings | {"studies": {"map": map_of_one}, "drawn": []}
+    study = settled_study(CONFIG["chain"], settings)
+    strained = study.members.query("past == 2")
+    there = strained[["study", "past", *point]].merge(committed("larger_settled_full"))
+    again = run_past(study.seed, strained.iloc[0])["coefficient"]
     assert there["coefficient"].tolist() == pytest.approx([again], abs=MACHINE)
 
 
