@@ -4,8 +4,9 @@ import pandas as pd
 from places import committed
 from settings import CONFIG, FULL, SLIDERS
 
-from maegawa2010.studies.members import noise_table, run_members
+from maegawa2010.studies.members import noise_table
 from maegawa2010.studies.resolution.tables import resolution_study
+from maegawa2010.studies.runs import run_members
 
 
 def test_medians_with_twenty_blocks_are_those_of_the_library():

@@ -11,9 +11,9 @@ from maegawa2010.studies.members import (
     Study,
     chain_of,
     gather,
-    run_members,
 )
 from maegawa2010.studies.noise.tables import noise_study
+from maegawa2010.studies.runs import run_members
 from precursors import simulate
 from precursors.analysis.summary import summarise
 from precursors.support.files import read_table, write_table
@@ -106,7 +106,7 @@ def test_a_member_that_meets_the_limit_of_transitions_is_kept_as_far_as_it_came(
             simulate(chain, duration, until, max_transitions=100) for chain in chains
         ]
 
-    monkeypatch.setattr("maegawa2010.studies.members.simulate_many", capped)
+    monkeypatch.setattr("maegawa2010.studies.runs.simulate_many", capped)
     found = run_members(Study(noise.members.query("scene == 'fig12'"), noise.seed))
     longer = rows.loc[found.index, "transitions"] > 100
     assert (

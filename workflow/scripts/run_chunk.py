@@ -4,7 +4,8 @@ from collections.abc import Callable
 
 import pandas as pd
 
-from maegawa2010.studies.members import Study, run_members
+from maegawa2010.studies.members import Study
+from maegawa2010.studies.runs import run_members
 from precursors.support.files import write_table
 
 

@@ -67,10 +67,7 @@ with job() as snakemake:
         "tilted": tilted(even),
         "all_six": shares[["k", "n"]].iloc[0].tolist() if len(shares) else None,
         "half_a_digit": HALF_A_DIGIT,
-        "printed": [
-            printed.MU_SAPP - printed.LAST_DIGIT,
-            printed.MU_SAPP + printed.LAST_DIGIT,
-        ],
+        "printed": [printed.MU_SAPP + way * printed.LAST_DIGIT for way in (-1, 1)],
         "noise": 100 * NOISE,
         "proved": [
             {"slider": proved_slider(values), "duration": chain_duration(values)}

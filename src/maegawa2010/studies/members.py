@@ -1,8 +1,9 @@
-"""A study: a table of members, each of them one run, and the summaries of the runs."""
+"""A study: a table of members, each of them one run (`runs.py`), and what the runs have
+in common."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Any
@@ -11,26 +12,17 @@ import numpy as np
 import pandas as pd
 
 from maegawa2010 import printed
-from maegawa2010.paper.readings import speedup
 from maegawa2010.support.run_statistics import (
     NOISE,
     compared,
     median_difference,
     nine_tenths,
 )
-from precursors.analysis.events import slip_events
-from precursors.analysis.slips import slip_columns
-from precursors.analysis.summary import summaries
 from precursors.model.chain import SLIDER, Chain, FloatArray
-from precursors.solver.many import simulate_many
-from precursors.solver.run import Record
-from precursors.solver.simulate import TransitionLimitError
 
 # Columns that the table of a study does not have where they are the same for all
 # members.
 LEFT_OUT = {*SLIDER, "duration"} - {"theta", "n_blocks"}
-# Runs of a batch are in memory at the same time: some 200 of 10 blocks, 10 of 200.
-BLOCKS_PER_BATCH = 2000
 # Normal load at a place x from 0 (trailing edge) to 1 (leading edge), but for a factor.
 LOADINGS: dict[str, Callable[[FloatArray], FloatArray]] = {
     "middle": lambda x: 0.2 + x * (1 - x),
@@ -113,39 +105,6 @@ def loaded(chain: Chain, loading: str) -> Chain:
     return replace(chain, weights=weights / weights.sum() * chain.normal_load)
 
 
-def run_members(study: Study) -> pd.DataFrame:
-    """Run all members of a study on one core.
-
-    Returns
-    -------
-    DataFrame
-        The members, each with the numbers of its run (see `numbers_of`). A member that
-        meets the limit of transitions is summarised as far as it came.
-    """
-    size = max(1, BLOCKS_PER_BATCH // max(study.members["n_blocks"], default=1))
-    results = [numbers_of([])]
-    for _, members in study.members.groupby("duration", sort=False):
-        for begin in range(0, len(members), size):
-            batch = members.iloc[begin : begin + size]
-            chains = [
-                chain_of(member, study.seed) for member in batch.to_dict("records")
-            ]
-            runs = _runs(chains, float(batch["duration"].iloc[0]))
-            results.append(numbers_of(runs).set_index(batch.index))
-    return study.members.join(pd.concat(results))
-
-
-def numbers_of(runs: Iterable[Record]) -> pd.DataFrame:
-    """A row for each run: its summary (see `summarise`), and the growth of L_p (see
-    `speedup`)."""
-    runs = list(runs)
-    tables = [slip_columns(slip_events(run), run.chain) for run in runs]
-    return summaries(tables).assign(
-        speedup=[speedup(table) for table in tables],
-        transitions=[len(run.transitions) for run in runs],
-    )
-
-
 def gather(chunks: Iterable[pd.DataFrame]) -> pd.DataFrame:
     """One table of a study from its chunks, without columns that say nothing
     (`LEFT_OUT`).
@@ -225,14 +184,3 @@ def differences_table(members: pd.DataFrame) -> pd.DataFrame:
 def with_noise(members: pd.DataFrame) -> pd.DataFrame:
     """The runs with noise that have a global slip."""
     return members[(members["draw"] > 0) & members["reached"]]
-
-
-def _runs(chains: Sequence[Chain], duration: float) -> Sequence[Record]:
-    """Run a batch; a run that meets the limit of transitions is kept as far as it
-    came."""
-    try:
-        return simulate_many(chains, duration, "global slip", 1)
-    except TransitionLimitError as limit:
-        if len(chains) == 1:
-            return [limit.run]
-        return [run for chain in chains for run in _runs([chain], duration)]

@@ -1,0 +1,62 @@
+"""The runs of a study's members, each with its numbers."""
+
+from collections.abc import Iterable, Sequence
+
+import pandas as pd
+
+from maegawa2010.paper.readings import speedup
+from maegawa2010.studies.members import Study, chain_of
+from precursors.analysis.events import slip_events
+from precursors.analysis.slips import slip_columns
+from precursors.analysis.summary import summaries
+from precursors.model.chain import Chain
+from precursors.solver.many import simulate_many
+from precursors.solver.run import Record
+from precursors.solver.simulate import TransitionLimitError
+
+# Runs of a batch are in memory at the same time: some 200 of 10 blocks, 10 of 200.
+BLOCKS_PER_BATCH = 2000
+
+
+def run_members(study: Study) -> pd.DataFrame:
+    """Run all members of a study on one core.
+
+    Returns
+    -------
+    DataFrame
+        The members, each with the numbers of its run (see `numbers_of`). A member that
+        meets the limit of transitions is summarised as far as it came.
+    """
+    size = max(1, BLOCKS_PER_BATCH // max(study.members["n_blocks"], default=1))
+    results = [numbers_of([])]
+    for _, members in study.members.groupby("duration", sort=False):
+        for begin in range(0, len(members), size):
+            batch = members.iloc[begin : begin + size]
+            chains = [
+                chain_of(member, study.seed) for member in batch.to_dict("records")
+            ]
+            runs = _runs(chains, float(batch["duration"].iloc[0]))
+            results.append(numbers_of(runs).set_index(batch.index))
+    return study.members.join(pd.concat(results))
+
+
+def numbers_of(runs: Iterable[Record]) -> pd.DataFrame:
+    """A row for each run: its summary (see `summarise`), and the growth of L_p (see
+    `speedup`)."""
+    runs = list(runs)
+    tables = [slip_columns(slip_events(run), run.chain) for run in runs]
+    return summaries(tables).assign(
+        speedup=[speedup(table) for table in tables],
+        transitions=[len(run.transitions) for run in runs],
+    )
+
+
+def _runs(chains: Sequence[Chain], duration: float) -> Sequence[Record]:
+    """Run a batch; a run that meets the limit of transitions is kept as far as it
+    came."""
+    try:
+        return simulate_many(chains, duration, "global slip", 1)
+    except TransitionLimitError as limit:
+        if len(chains) == 1:
+            return [limit.run]
+        return [run for chain in chains for run in _runs([chain], duration)]
