@@ -10,9 +10,10 @@ from places import committed, made
 
 
 @pytest.mark.parametrize(
-    "table", [committed("work_precision_full"), made("work_precision")]
+    ("read", "name"), [(committed, "work_precision_full"), (made, "work_precision")]
 )
-def test_every_method_that_comes_as_close_as_the_exact_solver_takes_longer(table):
+def test_every_method_that_comes_as_close_as_the_exact_solver_takes_longer(read, name):
+    table = read(name)
     assert set(table["scene"]) == {"uniform"}
     is_right = table["transitions_right"].eq(table["transitions_true"])
     (exact,) = table[is_right & table["method"].eq("exact")].to_dict("records")

@@ -88,12 +88,6 @@ WRONG = [
     ),
     ("noise.sede", 1, ["noise holds 'sede', but must hold names of seed, runs"]),
     ("noise", [1], ["noise: [1] is not of type 'object'"]),
-    ("grid", STUDIES["grid"][:1], ["grid: [{'key': 'theta'", "is too short"]),
-    (
-        "grid",
-        [STUDIES["grid"][0] | {"key": "mass"}, STUDIES["grid"][1]],
-        ["grid[0].key: 'mass' is not one of ['n_blocks', 'theta'"],
-    ),
     ("noise.runs", 0, ["noise.runs: 0 is less than the minimum of 1"]),
     ("horizon.proved.uniform.mass", 1, ["proved.uniform: ", "'mass' was unexpected"]),
     (

@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 from places import made
-from settings import CONFIG
+from settings import CONFIG, STUDIES
 
+from maegawa2010.config import check_sections
 from maegawa2010.studies.grid import figure
 from maegawa2010.studies.grid.axes import check_axes
 from maegawa2010.studies.grid.tables import grid_study
@@ -43,3 +44,15 @@ def test_any_two_values_are_combined_and_blocks_are_whole():
 def test_axes_that_lead_to_no_chain_are_refused(axes, told):
     with pytest.raises(ValueError, match=told):
         check_axes(CONFIG["chain"], axes)
+
+
+@pytest.mark.parametrize(
+    ("axes", "told"),
+    [
+        (AXES[:1], r"configuration: grid: \[{'key': 'theta'.* is too short"),
+        ([AXES[0] | {"key": "mass"}, AXES[1]], r"grid\[0\].key: 'mass' is not one of"),
+    ],
+)
+def test_axes_are_two_values_of_the_chain(axes, told):
+    with pytest.raises(ValueError, match=told):
+        check_sections(CONFIG | {"grid": axes}, STUDIES)
