@@ -13,6 +13,7 @@ import numpy as np
 from precursors.analysis.events import agreeing, slip_events, transitions_right
 from precursors.analysis.slips import first_global
 from precursors.model.chain import Chain, FloatArray
+from precursors.solver.record import COLUMNS
 from precursors.solver.run import Record
 
 if TYPE_CHECKING:
@@ -114,8 +115,8 @@ def until_global_slip(run: Record) -> Record:
     if np.isnan(end):
         return run
     transitions = run.transitions[run.transitions["time"] <= end]
-    columns = {name: transitions[name] for name in transitions.dtype.names or ()}
-    return Record.from_columns(run.chain, end, **columns)
+    columns = (transitions[name] for name in COLUMNS)
+    return Record.from_columns(run.chain, end, *columns)
 
 
 def compare(run: Record, truth: Truth) -> Comparison:

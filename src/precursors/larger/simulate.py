@@ -95,10 +95,9 @@ def simulate_larger(
     rows = rows[np.argsort(rows[:, 0], kind="stable")]
     work, heat = state.energy
     lacking = work - heat - (stored_energy(chain, state) - before)
-    numbers = larger.numbers
-    numbers |= {"step": step, "energy_error": lacking / work if work else 0.0}
+    found = {"step": step, "energy_error": lacking / work if work else 0.0}
     run = LargerRun.from_columns(
-        chain, time, *rows.T, numbers=numbers, load_points=points
+        chain, time, *rows.T, numbers=larger.numbers | found, load_points=points
     )
     if len(rows) > most or steps > max_steps:
         raise TransitionLimitError(
