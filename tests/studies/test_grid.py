@@ -2,14 +2,15 @@
 
 import numpy as np
 import pytest
-from places import made
-from settings import CONFIG, STUDIES
+from places import ROOT, made
+from settings import CONFIG
 
-from maegawa2010.config import check_sections
+from maegawa2010.config import check_config
 from maegawa2010.studies.grid import figure
 from maegawa2010.studies.grid.axes import check_axes
 from maegawa2010.studies.grid.tables import grid_study
 
+SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
 AXES = [
     {"key": "theta", "from": -0.95, "to": 0.95, "points": 4},
     {"key": "mu_k/mu_s", "from": 0.1, "to": 0.95, "points": 3},
@@ -55,4 +56,4 @@ def test_axes_that_lead_to_no_chain_are_refused(axes, told):
 )
 def test_axes_are_two_values_of_the_chain(axes, told):
     with pytest.raises(ValueError, match=told):
-        check_sections(CONFIG | {"grid": axes}, STUDIES)
+        check_config(CONFIG | {"grid": axes}, SCHEMA)
