@@ -94,6 +94,11 @@ class Law:
         self.lag = t_v * chain.stiffness / impedance / chain.n_blocks
         self.drive = chain.drive_stiffness * chain.n_blocks / chain.stiffness
         self.nucleus = critical_length(larger) / chain.length
+        if self.nucleus == math.inf:
+            raise ValueError(
+                "the law of the settled coefficient does not apply: the chain is too "
+                "weakly weakening, it has no l_c"
+            )
         q = brentq(lambda q: q * math.tan(q) - self.drive, 0.0, 0.5 * math.pi - 1e-12)
         x = q * self.lag
         for name, value, least, most in (
