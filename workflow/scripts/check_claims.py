@@ -98,7 +98,7 @@ def evidence(claim: Mapping[Any, str]) -> str:
     note."""
     unit = "" if claim["unit"] == "1" else f" {claim['unit']}"
     of = f" ({claim['of']})" if claim["of"] else ""
-    found = f"found {claim['ours']}{unit}{of}: {claim['rule']}."
+    found = f"found {claim['ours']}{unit}{of}; rule: {claim['rule']}."
     shares = [
         f"{100 * float(claim[f'{name}_share']):.0f}\N{NO-BREAK SPACE}% of the {runs}"
         for name, runs in RUNS.items()
