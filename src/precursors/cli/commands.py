@@ -339,8 +339,8 @@ def _chain(
         how = how_to_read(arguments, "weights")
         return Chain.from_slider(weights=read_weights(weights, **how), **slider)
     if profile is not None:
-        shape, positions = read_profile(profile, **how_to_read(arguments, "profile"))
-        return Chain.from_profile(shape, positions=positions, **slider)
+        *xs, shape = read_profile(profile, **how_to_read(arguments, "profile"))
+        return Chain.from_profile(shape, positions=xs[0] if xs else None, **slider)
     return Chain.from_slider(**slider)
 
 

@@ -77,7 +77,7 @@ def draw(
     n = len(views)
     heights = [1.3] * len(views[0]) + [1.0]
     rows = n if width_mm < NARROW_MM else 1
-    height_mm = HEIGHT_MM * rows + KEY_MM * (2 * rows - 1)
+    height_mm = HEIGHT_MM * rows + KEY_MM * max(2 * rows - 1, 1 + len(data))
     with style.page(width_mm, height_mm, look) as figure:
         panels = figure.subplots(
             len(heights) * rows, n // rows, squeeze=False, height_ratios=heights * rows

@@ -327,7 +327,7 @@ def _integral(
             "positions must rise, one for each value of the profile, at least two, but "
             f"are {' '.join(repr(x).split())}"
         )
-    if not (0 <= x[0] and x[-1] <= edges[-1] * (1 + ROUNDING)):
+    if not (x[0] >= 0 and x[-1] <= edges[-1] * (1 + ROUNDING)):
         raise ValueError(
             f"positions must be on the slider, from 0 to {edges[-1]:g} m, but are "
             f"{x[0]:g} to {x[-1]:g} m"

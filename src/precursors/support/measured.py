@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     import pandas as pd
 
 Numbers = NDArray[np.float64]
-Choice = Mapping[str, str]  # names of columns by the symbols of quantities
+Choice = Mapping[str, str]  # columns by the symbols of quantities
+BY_NAME: Choice = {}
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +48,7 @@ NEWTONS = {"N": 1.0, "kN": 1e3, "MN": 1e6, "mN": 1e-3, "lbf": 4.4482216152605}
 METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "in": 0.0254}
 SHARES = {"-": 1.0, "1": 1.0, "%": 1e-2}
 # Of a pressure only the shape counts.
-PRESSURES = dict.fromkeys("Pa hPa kPa MPa bar mbar psi N/mm2 N/mm^2 - 1 %".split(), 1.0)
+PRESSURES = dict.fromkeys(["Pa", "kPa", "MPa", "bar", "psi", "N/mm2", *SHARES], 1.0)
 
 TIME = Quantity("t", "s", ("t",), ("time",), SECONDS)
 LOAD = Quantity("F_X", "N", ("F_X",), ("force", "load"), NEWTONS)
@@ -97,8 +98,8 @@ class Table(NamedTuple):
         """
         # A column alone needs no name.
         names = self.names or [str(needed[0]) if len(needed) == 1 else ""]
-        found = [_match(q, names, choice.get(q.symbol, "")) for q in needed]
-        doubts = [match.doubt for match in found if match.doubt]
+        found = [(q, _match(q, names, choice.get(q.symbol, ""))) for q in needed]
+        doubts = [match.doubt for _, match in found if match.doubt]
         if doubts:
             self._check_that_numbers_are_below()
         for line, row in zip(self.lines, self.rows, strict=True):
@@ -109,18 +110,16 @@ class Table(NamedTuple):
                     "load needs a 0)"
                 )
         if doubts:
-            pairs = zip(needed, found, strict=True)
-            chosen = ",".join(f"{q.symbol}={match.suggestion}" for q, match in pairs)
+            chosen = ",".join(f"{q.symbol}={match.suggestion}" for q, match in found)
             how = "choose with --columns" if self.separator else "rename them, as in"
             called = ", ".join(map(repr, names))
             raise ValueError(
                 f'{"; ".join(doubts)}; the columns are {called}: {how} "{chosen}"'
             )
-        cells = "".join(row[match.place] for row in self.rows for match in found)
+        cells = "".join(row[match.place] for row in self.rows for _, match in found)
         if self.separator in (";", "\t") and "," in cells and "." in cells:
             raise ValueError("it has decimal commas and decimal points: write one")
-        pairs = zip(needed, found, strict=True)
-        return np.column_stack([self._numbers(q, match, length) for q, match in pairs])
+        return np.column_stack([self._numbers(*pair, length) for pair in found])
 
     def _numbers(self, quantity: Quantity, match: Match, length: float) -> Numbers:
         is_share = quantity is LENGTH
@@ -206,7 +205,7 @@ def read_series(
     x: Quantity,
     ys: Sequence[Quantity],
     length: float,
-    choice: Choice | None = None,
+    choice: Choice = BY_NAME,
     header_line: int | None = None,
     sample_rate: float | None = None,
 ) -> list[tuple[Quantity, Numbers]]:
@@ -215,53 +214,51 @@ def read_series(
     With a `sample_rate` [Hz] the table has no times. The other arguments are those of
     `read_table` and `Table.columns`.
     """
-    choice = choice or {}
     with refusals_of(source):
         table = read_table(source, header_line)
         words = [_parts(name)[0] for name in table.names]
-        chosen = [y for y in ys if y.symbol in choice]
-        said = [y for y in ys if any(map(y.is_said_by, words))]
-        of = chosen or said or ys[:1]
-        if sample_rate is None:
-            return [(y, table.columns([x, y], choice, length)) for y in of]
-        if x.symbol in choice or any(map(x.is_said_by, words)):
+        said = [q for q in (x, *ys) if any(map(q.is_said_by, words))]
+        chosen = [q for q in (x, *ys) if q.symbol in choice]
+        if sample_rate is not None and x in said + chosen:
             raise ValueError("it has times: leave out --sample-rate")
-        times = np.arange(len(table.rows)) / sample_rate
-        columns = [table.columns([y], choice, length)[:, 0] for y in of]
-        return [
-            (y, np.column_stack([times, column]))
-            for y, column in zip(of, columns, strict=True)
-        ]
+        series = []
+        for y in [q for q in chosen or said if q is not x] or ys[:1]:
+            needed = [x, y] if sample_rate is None else [y]
+            columns = table.columns(needed, choice, length)
+            if sample_rate is not None:
+                times = np.arange(len(columns)) / sample_rate
+                columns = np.column_stack([times, columns])
+            series.append((y, columns))
+        return series
 
 
 def read_weights(
-    path: AnyPath, choice: Choice | None = None, header_line: int | None = None
+    path: AnyPath, choice: Choice = BY_NAME, header_line: int | None = None
 ) -> list[float]:
     """Read normal loads [N], a row for each block, which a column `block` may number."""
     with refusals_of(path):
         table = read_table(path, header_line)
-        weights = table.columns([WEIGHT], choice or {})[:, 0].tolist()
-        words = [name.casefold() for name in table.names]
-        for place in [i for i, word in enumerate(words) if word == "block"]:
-            for i, row in enumerate(table.rows, 1):
-                if row[place] != str(i):
+        weights = table.columns([WEIGHT], choice)[:, 0].tolist()
+        for place, name in enumerate(table.names):
+            blocks = [row[place] for row in table.rows]
+            for i, block in enumerate(blocks if name.casefold() == "block" else [], 1):
+                if block != str(i):
+                    line = table.lines[i - 1]
                     raise ValueError(
-                        f"line {table.lines[i - 1]}: block must be {i}, but is {row[place]!r}"
+                        f"line {line}: block must be {i}, but is {block!r}"
                     )
         return weights
 
 
 def read_profile(
-    path: AnyPath, choice: Choice | None = None, header_line: int | None = None
-) -> tuple[Numbers, Numbers | None]:
-    """Read a pressure in any unit, and its positions [m] from the pushed end; of a
-    column alone, None, as its cells are equal."""
+    path: AnyPath, choice: Choice = BY_NAME, header_line: int | None = None
+) -> Numbers:
+    """Read positions [m] from the pushed end and the pressure there in any unit, shape
+    (2, rows); a column alone is the pressure in equal cells, shape (1, rows)."""
     with refusals_of(path):
         table = read_table(path, header_line)
-        if len(table.names) < 2:
-            return table.columns([PRESSURE], choice or {})[:, 0], None
-        positions, pressure = table.columns([POSITION, PRESSURE], choice or {}).T
-        return pressure, positions
+        needed = [POSITION, PRESSURE] if len(table.names) > 1 else [PRESSURE]
+        return table.columns(needed, choice).T
 
 
 @contextmanager
@@ -279,43 +276,34 @@ def _match(quantity: Quantity, names: Sequence[str], chosen: str) -> Match:
     parts = [_parts(name) for name in names]
     wanted, chosen_unit = _parts(chosen)
     if chosen:
-        exact = [chosen == name for name in names]
+        exact = [name == chosen for name in names]
         alike = [
             wanted in (name, words, str(i))
             for i, (name, (words, _)) in enumerate(zip(names, parts, strict=True), 1)
         ]
     else:
         exact = [words in quantity.names for words, _ in parts]
-        alike = [
-            quantity.is_said_by(words) or unit in quantity.units
-            for words, unit in parts
-        ]
+        alike = [quantity.is_said_by(w) or u in quantity.units for w, u in parts]
     places = np.flatnonzero(exact if any(exact) else alike).tolist()
     if len(places) != 1:
         called = " or ".join(f"column {i + 1}, {names[i]!r}" for i in places)
-        doubt = (
-            f"{quantity} may be {called}"
-            if called
-            else f"no column is {chosen or quantity}"
-        )
+        doubt = f"{quantity} may be {called}"
+        if not called:
+            doubt = f"no column is {chosen or quantity}"
         return Match(f"NAME [{quantity.unit}]", doubt=doubt)
     (place,) = places
-    name = names[place]
-    words, unit = parts[place]
-    has_unit = unit in quantity.units
-    if chosen != name:
-        unit = chosen_unit or unit
-    if words == "L_p/L":
-        unit = unit or "-"
+    words, own_unit = parts[place]
+    unit = own_unit if chosen == names[place] else chosen_unit or own_unit
+    if words == LENGTH.symbol:
+        unit = unit or LENGTH.unit
     doubt = ""
+    if unit not in quantity.units:
+        units = ", ".join(quantity.units)
+        doubt = f"{names[place]!r} needs one of these units in brackets: {units}"
     if not chosen and not quantity.is_said_by(words):
         doubt = f"no column is {quantity}"
-    elif unit not in quantity.units:
-        doubt = (
-            f"{name!r} has no unit of {quantity.symbol}: {', '.join(quantity.units)}"
-        )
-    suggestion = name if has_unit else f"{name} [{quantity.unit}]"
-    return Match(suggestion, place, unit, doubt)
+    added = "" if own_unit in quantity.units else f" [{quantity.unit}]"
+    return Match(names[place] + added, place, unit, doubt)
 
 
 def _parts(name: str) -> tuple[str, str]:
