@@ -173,7 +173,8 @@ def _measured(arguments: Namespace, run: Record) -> list[Measured]:
     if x is not TIME and given(arguments, ("sample_rate", "data_start")):
         raise ValueError("--sample-rate and --data-start need --figure load or curve")
     measured = []
-    n = len(arguments.data)
+    names = [Path(path).name for path in arguments.data]
+    n = len(names)
     for i, path in enumerate(arguments.data):
         rate = of_file("sample-rate", arguments.sample_rate, i, n)
         start = of_file("data-start", arguments.data_start, i, n)
@@ -195,7 +196,8 @@ def _measured(arguments: Namespace, run: Record) -> list[Measured]:
             ranges = (f"{q} {x.min():g} to {x.max():g}" for q, x in columns.items())
             tell(f"{path}: {several(len(data), 'point')}, {', '.join(ranges)}")
             tell_doubts(path, columns, run)
-            measured.append(replace(each, points=data))
+            name = path if names.count(each.name) > 1 else each.name
+            measured.append(replace(each, name=name, points=data))
     return measured
 
 

@@ -53,7 +53,10 @@ COLUMN_MM = 85.0
 PAGE_MM = 178.0
 PNG_DPI = 300
 SCREEN_DPI = 120
-MOST_LETTERS = 45  # of a line of a key, for names of files
+# Of a line of a key that has the name of a file, and of the name in it.
+MOST_LETTERS = 45
+LEAST_LETTERS = 12
+LONGEST_NAME = 29
 
 MU_SAPP_LABEL = r"$\mu_\mathrm{sapp}$ [-]"
 DOTTED: Options = {"color": GREY, "linewidth": 0.6, "linestyle": ":", "zorder": 1}
@@ -237,8 +240,9 @@ class Measured:
 
     @property
     def label(self) -> str:
-        """The name in the key, in lines that fit below a panel."""
-        return fill(plain(self.name), MOST_LETTERS)
+        """The name in the key, of which a long one has its beginning and end."""
+        is_long = len(self.name) > LONGEST_NAME
+        return plain(f"{self.name[:13]}...{self.name[-13:]}" if is_long else self.name)
 
     def beside(self, curve: NDArray[np.float64], first_global: float, unit: str) -> str:
         """The name, and how far the points are from the lines between points of a run,
@@ -248,7 +252,7 @@ class Measured:
             return self.label
         rms = np.sqrt(np.mean((values - np.interp(seen, *curve.T)) ** 2))
         until = "end" if isnan(first_global) else "first global slip"
-        first = f"{plain(self.name)}: {rms:.3g} {unit} rms from the run"
+        first = f"{self.label}: {rms:.3g} {unit} rms from the run"
         return f"{fill(first, MOST_LETTERS)}\nup to its {until}"
 
 
@@ -267,8 +271,8 @@ def plain(text: str) -> str:
 
 def draw_key(figure: Figure, entries: Sequence[Any] = (), ncols: int = 0) -> None:
     """Draw a key below the panels, for marks that mean the same in all of them; by
-    default of all that is drawn and has a label. It has fewer columns if they would be
-    wider than the page."""
+    default of all that is drawn and has a label. It has fewer columns, or shorter
+    lines, if they would be wider than the page."""
     found = {
         label: handle
         for axes in figure.axes
@@ -277,9 +281,16 @@ def draw_key(figure: Figure, entries: Sequence[Any] = (), ncols: int = 0) -> Non
     entries = entries or list(found.values())
     for columns in range(ncols or len(entries), 0, -1):
         key = figure.legend(handles=entries, loc="outside lower center", ncols=columns)
-        if columns == 1 or key.get_window_extent().width <= figure.bbox.width:
+        if key.get_window_extent().width <= figure.bbox.width:
             return
-        key.remove()
+        if columns > 1:
+            key.remove()
+    words = {text: text.get_text() for text in key.get_texts()}
+    for letters in range(MOST_LETTERS, LEAST_LETTERS, -2):
+        for text, label in words.items():
+            text.set_text(label if "$" in label else fill(label, letters))
+        if key.get_window_extent().width <= figure.bbox.width:
+            return
 
 
 def mark(label: str, **look: Any) -> Line2D:
