@@ -375,7 +375,7 @@ def test_a_load_curve_and_a_film_are_drawn_with_their_names(
     )
     drawn = {}
     monkeypatch.setattr(style, "save", lambda figure, *_: drawn.update(figure=figure))
-    for width in (85, 178):
+    for width in (60, 85, 178):
         look = (f"--width={width}", "--font-size=9")
         assert cli("plot", run_file, *files, *chosen, *look)[::2] == (0, told)
         figure = drawn["figure"]
