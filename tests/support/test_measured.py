@@ -65,7 +65,7 @@ def test_columns_are_read_by_name_and_unit_or_chosen(file, text, how):
 @pytest.mark.parametrize(
     ("text", "how", "about"),
     [
-        ("t [s],F [N]\n0,0,10,5\n", {}, "line 2: cells: 4, columns: 2 (decimal commas"),
+        ("t [s],F [N]\n0,0,10,5\n", {}, "line 2: cells: 4, columns: 2 (write decimal"),
         ("t [s];F [N]\n0;10;5\n", {}, "line 2: cells: 3"),
         ("t [s],F_X [N],a\n0,10\n", {}, "line 2: cells: 2"),
         ("Time,Temperature\n0,23.1\n", {}, '"t=Time [s],F_X=NAME [N]"'),

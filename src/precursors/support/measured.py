@@ -105,9 +105,8 @@ class Table(NamedTuple):
         for line, row in zip(self.lines, self.rows, strict=True):
             if len(row) != len(names):
                 raise ValueError(
-                    f"line {line}: cells: {len(row)}, columns: {len(names)} (decimal "
-                    "commas need semicolons or tabs between columns, and a block without "
-                    "load needs a 0)"
+                    f"line {line}: cells: {len(row)}, columns: {len(names)} (write decimal "
+                    "points, or semicolons between columns, and 0 for no load)"
                 )
         if doubts:
             chosen = ",".join(f"{q.symbol}={match.suggestion}" for q, match in found)
