@@ -22,7 +22,6 @@ from maegawa2010.config import load_config, read_file
 from maegawa2010.paper.inputs import SCENES as PAPERS_SCENES
 from maegawa2010.scenes import (
     is_papers,
-    scene_additions,
     scene_duration,
     scene_label,
     scene_slider,

@@ -5,7 +5,6 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from precursors.larger.chain import ADDITIONS
 from precursors.model.chain import SLIDER, parse_theta, theta_from_load_cells
 from precursors.support.spreadsheet import read_weights
 
@@ -73,12 +72,6 @@ def scene_slider(config: Config, name: str) -> dict[str, Any]:
         "normal_load": math.fsum(loads),
         "theta": math.nan,
     }
-
-
-def scene_additions(config: Config, name: str) -> dict[str, float]:
-    """Additions of a scene to the paper's chain, keys of `ADDITIONS`."""
-    scene = config["scenes"][name]
-    return {key: scene[key] for key in ADDITIONS if key in scene}
 
 
 def scene_as_written(config: Config, name: str) -> dict[str, Any]:

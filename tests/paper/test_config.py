@@ -81,11 +81,6 @@ WRONG = [
         ["fig13 holds 'fig99'", "fig10, fig11, fig12"],
     ),
     ("figure_formats", ["doc"], ["figure_formats[0]: 'doc' is not one of"]),
-    (
-        "scenes.steep",
-        STEEP | {"viscosity": 1.0, "model": "statics"},
-        ["must not have what a larger chain adds beside model"],
-    ),
     ("noise.sede", 1, ["noise holds 'sede', but must hold names of seed, runs"]),
     ("noise", [1], ["noise: [1] is not of type 'object'"]),
     ("noise.runs", 0, ["noise.runs: 0 is less than the minimum of 1"]),
