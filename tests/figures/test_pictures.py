@@ -2,7 +2,7 @@
 
 import numpy as np
 import pandas as pd
-from places import GOLDEN, committed
+from places import GOLDEN
 
 from precursors.figures import precursor_lengths, scene, style
 

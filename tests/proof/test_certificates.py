@@ -160,7 +160,9 @@ def test_theta_of_a_scene_is_not_rounded():
 
 def test_a_scene_with_measured_loads_is_not_proved():
     config = {"chain": {}, "scenes": {"measured": {"weights": [30.0, 40.0, 50.0]}}}
-    with pytest.raises(ValueError, match=r"^scenes\.measured must have .* has weights$"):
+    with pytest.raises(
+        ValueError, match=r"^scenes\.measured must have .* has weights$"
+    ):
         scene_exact_chain(config, "measured")
 
 

@@ -89,7 +89,7 @@ class Record:
         states.
         """
         content = read_record(path)
-        kind = Run if "states" in content else Record
+        kind: type[Record] = Run if "states" in content else Record
         if not issubclass(kind, cls):
             raise RunFileError(
                 f"{path} holds a {kind.__name__} and not a {cls.__name__}: "
