@@ -42,5 +42,6 @@ def test_any_event_is_shown_that_is_over():
         plot(run, "push", events=[2, 17])
     columns = [run.transitions[name] for name in run.transitions.dtype.names]
     made = Record.from_columns(run.chain, run.duration, *columns)
-    with pytest.raises(ValueError, match="a push needs a Run, but this is a Record"):
-        plot(made, "push")
+    for figure in ("load", "push", "wave"):
+        with pytest.raises(ValueError, match=f"a {figure} needs a Run, but this is a R"):
+            plot(made, figure)

@@ -185,11 +185,6 @@ def test_every_page_is_rendered_with_its_title_and_links_that_work(tmp_path):
     assert [anchor for anchor in linked if f'id="{anchor}"' not in guide] == []
 
 
-def test_the_law_of_friction_shown_is_that_of_its_example():
-    (_, shown), *_ = BLOCK.findall((DOCS / "models.md").read_text("utf-8"))
-    assert shown in (DOCS / "examples/friction_law.py").read_text("utf-8")
-
-
 PAGES = [ROOT / "README.md", *sorted(DOCS.glob("*.md"))]
 
 

@@ -72,17 +72,17 @@ def plot(
     Raises
     ------
     ValueError
-        If there is no such figure or event, or a push or a wave is asked of a record
-        without states, or with data, or a wave with anything.
+        If there is no such figure or event, if it needs a `Run`, or if a push or a wave
+        is asked with data, or a wave with anything.
     """
     if figure not in AXES:
         raise ValueError(f"figure must be one of {', '.join(AXES)}, but is {figure!r}")
     look = Look(**look) if isinstance(look, Mapping) else look
     if events and figure != "push":
         raise ValueError("only a push takes events")
+    if figure != "lengths" and not isinstance(run, Run):
+        raise ValueError(f"a {figure} needs a Run, but this is a Record")
     if not AXES[figure]:
-        if not isinstance(run, Run):
-            raise ValueError(f"a {figure} needs a Run, but this is a Record")
         if data is not NO_DATA:
             raise ValueError(f"a {figure} takes no data")
         if figure == "push":
