@@ -43,5 +43,7 @@ def test_any_event_is_shown_that_is_over():
     columns = [run.transitions[name] for name in run.transitions.dtype.names]
     made = Record.from_columns(run.chain, run.duration, *columns)
     for figure in ("load", "push", "wave"):
-        with pytest.raises(ValueError, match=f"a {figure} needs a Run, but this is a R"):
+        with pytest.raises(
+            ValueError, match=f"a {figure} needs a Run, but this is a R"
+        ):
             plot(made, figure)
