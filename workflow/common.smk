@@ -26,7 +26,6 @@ from maegawa2010.scenes import (
     scene_duration,
     scene_label,
     scene_slider,
-    scenes_with,
     scenes_with_theta,
 )
 from maegawa2010.support.digest import digest_code
@@ -65,8 +64,7 @@ if not workflow.modifier.skip_configfile:
 if os.path.exists(sys.executable):  # and not yet in quotes
     sys.executable = shlex.quote(sys.executable)  # Snakemake's commands have it as it is
 
-SCENES = scenes_with(config, "run")
-ASKED = scenes_with(config, "answers")
+SCENES = list(config["scenes"])
 FIG13 = config["fig13"]
 MORE_FORMATS = [name for name in config["figure_formats"] if name != "svg"]
 SLIDERS = {scene: scene_slider(config, scene) for scene in FIG13}

@@ -115,11 +115,10 @@ def test_an_edit_of_a_module_runs_what_computes_with_it_and_nothing_else(
             | {"draw_scene steep", "fig13", "draw_slips"},
         ),
         (
-            'edge\n    theta: "9/10"\n',
-            'edge\n    theta: "8/10"\n',
+            'theta: "9/10"',
+            'theta: "8/10"',
             {"simulate_scene steep", "draw_scene steep"} | LISTS_OF_SCENES,
         ),
-        ("model: front_law", "model: rigid", {"answer_scene quick"}),
     ],
 )
 def test_an_edit_of_the_paper_and_of_the_configuration_runs_what_reads_it(

@@ -13,7 +13,6 @@ import pytest
 from matplotlib import image
 from places import ROOT
 
-from maegawa2010.studies.models.models import scene_answers
 from precursors import Record, Run
 
 SOLVER = "src/precursors/solver/simulate.py"
@@ -23,21 +22,15 @@ JOB = ("-c1", "--", "results/runs/fig10.h5")
 # A job
 
 
-def test_a_scene_may_be_a_larger_chain_and_the_answer_of_a_model_is_computed(workspace):
-    """And a job logs how long it took."""
+def test_a_scene_may_be_a_larger_chain_and_a_job_logs_its_time(workspace):
     workspace.add_scenes(
         "  wet: {title: viscous, theta: 0, viscosity: 50.0, duration: 0.5}\n"
-        '  asked: {title: a model, theta: "9/10", model: chain}\n'
     )
-    answers = "results/tables/asked_answers.csv"
-    outcome = workspace.run("-c1", "results/runs/wet.h5", answers)
+    outcome = workspace.run("-c1", "results/runs/wet.h5")
     assert outcome.code == 0, outcome.text
     log = (workspace.path / "results/logs/simulate_scene/wet.log").read_text()
     assert re.fullmatch(r"simulate_scene, wet: \d+\.\d{3} s\n", log)
     assert Record.load(workspace.path / "results/runs/wet.h5").numbers
-    expected = scene_answers({"theta": "9/10"}, "chain").reset_index(drop=True)
-    found = pd.read_csv(workspace.path / answers)
-    pd.testing.assert_frame_equal(found, expected, check_dtype=False)
 
 
 def test_what_is_wrong_in_our_code_is_one_line_with_a_traceback_in_the_log(workspace):
