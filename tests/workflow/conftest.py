@@ -43,5 +43,5 @@ def untouched(tmp_path_factory: pytest.TempPathFactory) -> tuple[Workspace, Outc
 def finished(_finished: Workspace, tmp_path: Path) -> Workspace:
     """A copy of the workflow with MORE_SCENE, run to the end with stand-ins for what
     the scripts compute."""
-    shutil.copytree(_finished.path, tmp_path / "copy", symlinks=True)
+    shutil.copytree(_finished.path, tmp_path / "copy")
     return Workspace(tmp_path / "copy")
