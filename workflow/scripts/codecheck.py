@@ -55,7 +55,7 @@ def table_difference(made: Path, golden: Path) -> str:
         pd.read_csv(path, dtype=str, keep_default_na=False) for path in (made, golden)
     )
     if list(new) != list(old) or len(new) != len(old):
-        return f"{len(new)} lines of {', '.join(new)}, not {len(old)} of {', '.join(old)}"
+        return "other columns, or another number of lines"
     growth = 1.0
     rows = zip(new.to_dict("records"), old.to_dict("records"), strict=True)
     for line, (values, expected) in enumerate(rows, start=2):
