@@ -11,24 +11,9 @@ from precursors.support.spreadsheet import read_weights
 Config = Mapping[str, Any]
 
 
-def scenes_with(config: Config, output: str) -> list[str]:
-    """Names of the scenes that have a "run", or "answers" because they name a model, in
-    order."""
-    return [
-        name
-        for name, scene in config["scenes"].items()
-        if ("model" in scene) == (output == "answers")
-    ]
-
-
 def scenes_with_theta(config: Config) -> list[str]:
-    """Names of the scenes that have a run and whose normal load changes linearly along
-    the slider."""
-    return [
-        name
-        for name in scenes_with(config, "run")
-        if "weights" not in config["scenes"][name]
-    ]
+    """Names of the scenes whose normal load changes linearly along the slider."""
+    return [name for name, scene in config["scenes"].items() if "weights" not in scene]
 
 
 def scene_duration(config: Config, name: str) -> float:

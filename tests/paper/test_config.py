@@ -10,7 +10,7 @@ from settings import CONFIG as PAPERS
 from settings import STUDIES
 
 from maegawa2010.config import check_config, check_sections, read_file, read_numbers
-from maegawa2010.scenes import scene_slider, scenes_with
+from maegawa2010.scenes import scene_slider
 from precursors.model.chain import Chain
 
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
@@ -131,7 +131,6 @@ def refused(config):
 
 def test_the_papers_configuration_is_accepted():
     check_config(PAPERS, SCHEMA)
-    assert scenes_with(PAPERS, "run") == ["fig10", "fig11", "fig12"]
     assert [
         Chain.from_slider(**scene_slider(PAPERS, name)).normal_load
         for name in PAPERS["scenes"]
@@ -143,13 +142,6 @@ def test_the_papers_configuration_is_accepted():
     ]
     for theta in (-1, 0.5, "5/6"):
         check_config(changed("scenes.steep", STEEP | {"theta": theta}), SCHEMA)
-
-
-def test_a_scene_that_names_a_model_is_answered_and_not_run():
-    config = changed("scenes.rough", STEEP | {"model": "quasistatic"})
-    config["scenes"]["quick"] = STEEP | {"model": "chain"}
-    check_config(config, SCHEMA)
-    assert scenes_with(config, "answers") == ["rough", "quick"]
 
 
 @pytest.mark.parametrize(("key", "value", "words"), WRONG)

@@ -68,7 +68,7 @@ def test_the_scene_and_the_study_shown_are_made(documented):
     planned = documented.run("-n", "--forceall", *command("A scene"), "all")
     assert {"simulate_scene steep", "draw_scene steep"} <= planned.jobs
     assert "measuring how long slips last" in planned.text
-    (documented.path / "results/tables").mkdir()
+    (documented.path / "results/tables").mkdir(parents=True)
     slips = ROOT / "tests/golden/fig10_slips.csv"
     shutil.copy(slips, documented.path / "results/tables")
     outcome = documented.run(*command("A study"))

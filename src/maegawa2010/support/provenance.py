@@ -28,7 +28,6 @@ NOT_RESULTS = (
     "benchmarks",
     "logs",
     "provenance.json",
-    "records",
     "report.html",
 )
 
