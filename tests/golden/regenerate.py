@@ -5,9 +5,8 @@ import shutil
 import sys
 
 from explorer import example
-from golden import benchmark_page
 from golden.kept import SMALL, pictures, write_picture
-from places import GOLDEN, RESULTS, ROOT, made
+from places import GOLDEN, RESULTS, ROOT
 
 from precursors.support.files import write_whole
 
@@ -37,7 +36,6 @@ def main() -> None:
         for name in names:
             shutil.copyfile(RESULTS / kind / name, GOLDEN / name)
     shutil.copyfile(RESULTS / "figures/wave.svg", GOLDEN / "wave.svg")
-    benchmark_page.write(made("benchmark"))
     for name, how in pictures().items():
         write_picture(SMALL / f"{name}.png", how)
     write_whole(example.PICTURE, example.picture())

@@ -4,12 +4,17 @@ digit told."""
 import math
 import re
 from collections.abc import Iterable
+from fractions import Fraction
+from itertools import pairwise
 
 import pandas as pd
 import pytest
 from places import ROOT, committed, made
 
 from precursors import Chain, simulate, summarise
+from precursors.benchmark.compare import compare
+from precursors.benchmark.score import problems, solution
+from precursors.proof import Certificate, ExactChain
 
 SCENES = ["fig11", "fig10", "fig12"]
 THETAS = ["-5/6", "0", "+5/6"]  # of these scenes, as pages write them
@@ -214,3 +219,50 @@ def test_docs_tell_the_published_times():
         row = f"| {shown} | {{}} | {{}} ms | {{}} us | {{}} s |"
         assert_told(page, row, numbers)
     assert_told(page, "heyoka takes {} times", [seconds[1] / seconds[0]])
+
+
+PROBLEMS = "docs/benchmark.md"
+
+
+def test_the_page_states_the_problems_that_are_proved():
+    text = (ROOT / PROBLEMS).read_text(encoding="utf-8")
+    rows = text[text.index("| problem | N |") :].split("\n\n")[0].splitlines()[2:]
+    stated = [[cell.strip() for cell in row.strip("|").split("|")] for row in rows]
+    assert {name for name, *_ in stated} == set(problems())
+    for row in stated:
+        name, n, theta, mu_k, drive, speed, duration, *_ = row
+        proved = Certificate.load(problems()[name])
+        chain = ExactChain.from_slider(
+            int(n), theta=theta, mu_k=mu_k, drive_stiffness=drive, drive_velocity=speed
+        )
+        assert chain == proved.chain
+        assert Fraction(duration) == proved.duration
+        times = [transition.time.midpoint for transition in proved.transitions]
+        closest = 1e9 * float(min(b - a for a, b in pairwise(times)))
+        sentence = f"| {' | '.join(row[:-2])} | {{}} | {{}} |"
+        assert_told(PROBLEMS, sentence, [len(times), closest])
+
+
+def test_the_page_of_problems_begins_the_file_of_one_as_it_is_proved():
+    transitions = solution("uniform").run.transitions
+    assert (transitions["mode"] >= 0).all()  # the plainest
+    for transition in transitions[:3].tolist():
+        row = ",".join(map(repr, transition))
+        assert f"    {row}\n" in (ROOT / PROBLEMS).read_text(encoding="utf-8")
+
+
+def test_the_page_of_problems_tells_where_methods_stand():
+    truth = solution("fast_drive")
+    compared = compare(simulate(truth.run.chain, truth.run.duration), truth)
+    (right_until,) = told(PROBLEMS, "in the right order up to {} s only")
+    assert compared.first_difference >= float(right_until)
+    every = table("work_precision_full")
+    assert_told(PROBLEMS, "right, of {} |", every["transitions_true"][:1])
+    for _, settings in every.groupby("method"):
+        tightest = settings.loc[settings["value"].idxmin()]
+        setting = "{}" if tightest["value"] else "none"
+        row = f"| {tightest['label']} | {setting} | {{}} | {{}} s | {{}} ms |"
+        right, error = tightest[["transitions_right", "time_error_s"]]
+        numbers = [right, error, 1e3 * tightest["seconds"]]
+        values = [tightest["value"], *numbers] if tightest["value"] else numbers
+        assert_told(PROBLEMS, row, values)
