@@ -13,7 +13,7 @@ ifeq ($(XDG_CACHE_HOME)$(shell test -w "$$HOME" && echo home),)
 export XDG_CACHE_HOME := $(CURDIR)/.snakemake/cache
 endif
 
-TARGETS := all test test-cluster results check report benchmark golden docs bench speed codecheck lock lint clean
+TARGETS := all test test-cluster results check report golden docs bench speed codecheck lock lint clean
 .PHONY: $(TARGETS)
 
 all: results
@@ -38,10 +38,6 @@ check: $(READY)
 # Every figure with its caption, the rule that made it and its time, in one file for a browser.
 report: results
 	$(BIN)/snakemake --report results/report.html --report-stylesheet workflow/report/report.css -- all
-
-# The reference problems of docs/benchmark.md as plain files in one archive, for a release.
-benchmark: $(READY)
-	@$(BIN)/snakemake --quiet rules host -c1 results/benchmark.zip
 
 # What codecheck.yml lists, made again from nothing and compared with tests/golden.
 codecheck: $(READY)

@@ -153,7 +153,7 @@ def copy_workflow(path: Path) -> Workspace:
     for name in ("Snakefile", "config.yaml", "LICENSE-text", "CITATION.cff"):
         shutil.copy2(ROOT / name, path)
     unneeded = shutil.ignore_patterns("__pycache__", "*.png", "results")
-    for name in ("workflow", "src", "paper", "profiles", "benchmarks", "docs"):
+    for name in ("workflow", "src", "paper", "profiles"):
         shutil.copytree(ROOT / name, path / name, ignore=unneeded)
     # Of a job with a message Snakemake prints neither the rule nor the outputs.
     for file in (path / "workflow").rglob("*.smk"):

@@ -10,8 +10,7 @@ from unittest import mock
 
 import codecheck
 from explorer import example
-from golden import benchmark_page
-from places import GOLDEN, RESULTS, ROOT, made
+from places import GOLDEN, ROOT
 
 from precursors.figures import style
 from precursors.support.files import write_whole
@@ -46,7 +45,6 @@ def main() -> None:
     """Copy golden files from results/, and make the small ones."""
     for file in codecheck.manifest(ROOT):
         shutil.copy(ROOT / file, GOLDEN)
-    benchmark_page.write(made("benchmark"))
     for name, how in pictures().items():
         write_picture(SMALL / f"{name}.png", how)
     write_whole(example.PICTURE, example.picture())

@@ -7,7 +7,7 @@ import pytest
 PAPERS = {"simulate_scene fig10", "simulate_scene fig11", "simulate_scene fig12"}
 # Rules that `all` leaves out, and write_provenance, which conftest leaves out of all
 # lists of jobs.
-ON_DEMAND = {"write_benchmark", "certify_scene", "prove_again", "write_provenance"}
+ON_DEMAND = {"certify_scene", "prove_again", "write_provenance"}
 # The paper shows nearly all tables and figures, and is set again when one of them may
 # change.
 PAPER = {"write_paper"}

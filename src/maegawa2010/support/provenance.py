@@ -25,7 +25,6 @@ SOURCES = (
 # In the directory of the results, but not results.
 NOT_RESULTS = (
     "README.md",
-    "benchmarks",
     "logs",
     "provenance.json",
     "report.html",

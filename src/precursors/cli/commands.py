@@ -216,7 +216,7 @@ def audit(arguments: Namespace) -> None:
 
 
 def score(arguments: Namespace) -> None:
-    """Score a result file on a reference problem."""
+    """Score a result file on a proved problem."""
     from precursors.benchmark.score import score
 
     values = score(arguments.file, arguments.problem, arguments.ties)
