@@ -19,7 +19,7 @@ include: "workflow/rules/models.smk"  # smaller models, and which answers which 
 # Studies on which no claim rests
 include: "workflow/rules/grid.smk"  # mu_sapp over any two values of the chain
 include: "workflow/rules/larger.smk"  # chains with a length
-include: "workflow/rules/mean_load.smk"  # the time mean of F_X
+include: "workflow/rules/balance.smk"  # the distance from kinetic balance, the mean of F_X
 include: "workflow/rules/benchmark.smk"  # transitions of other solvers, scored
 include: "workflow/rules/failures.smk"  # where methods fail
 include: "workflow/rules/step_sweep.smk"  # counts against the step of a Runge-Kutta method
