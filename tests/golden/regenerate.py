@@ -21,7 +21,7 @@ TABLES = (
 )
 FIGURES = tuple(
     f"{figure}.png"
-    for figure in ("fig09", *PAPERS_SCENES, "fig13", "hero", "push", "speed")
+    for figure in ("fig09", *PAPERS_SCENES, "fig13", "hero", "mean", "push", "speed")
 )
 # What is read without a build.
 BUILT = {

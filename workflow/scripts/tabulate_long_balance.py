@@ -14,7 +14,9 @@ with job() as snakemake:
     settings = snakemake.params.settings
     seed = settings["seed"]
     tables = {
-        "balance_first_slips": first_slips_table(sliders, settings["first_slips"], seed),
+        "balance_first_slips": first_slips_table(
+            sliders, settings["first_slips"], seed
+        ),
         "balance_blocks": blocks_table(slider, settings["blocks_seconds"]),
         "balance_loads": loads_table(slider, settings["loads"], seed),
         "balance_runs": runs_table(slider, settings["runs"], seed),

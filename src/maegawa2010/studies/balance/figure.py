@@ -31,8 +31,7 @@ def draw(table: pd.DataFrame, curves: pd.DataFrame) -> Figure:
         )
         for row in table.itertuples():
             axes = panels[scenes.index(row.scene), sizes.index(row.n_blocks)]
-            own = curves["scene"].eq(row.scene) & curves["n_blocks"].eq(row.n_blocks)
-            _draw_run(axes, row, curves[own])
+            _draw_run(axes, row, curves)
         for axes, n in zip(panels[0], sizes, strict=True):
             axes.set_title(f"{n} blocks")
         for axes, scene in zip(panels[:, 0], scenes, strict=True):
@@ -51,8 +50,10 @@ def draw(table: pd.DataFrame, curves: pd.DataFrame) -> Figure:
     return figure
 
 
-def _draw_run(axes: Axes, row: Any, curve: pd.DataFrame) -> None:
+def _draw_run(axes: Axes, row: Any, curves: pd.DataFrame) -> None:
     """Draw the load of a run, mu_k, and the mean with its number."""
+    is_own = curves["scene"].eq(row.scene) & curves["n_blocks"].eq(row.n_blocks)
+    curve = curves[is_own]
     is_known = curve["time_s"] <= row.predictable_s
     color = style.theta_color(row.theta)
     beyond = curve[~is_known.shift(-1, fill_value=False)]
@@ -60,10 +61,12 @@ def _draw_run(axes: Axes, row: Any, curve: pd.DataFrame) -> None:
     axes.plot(curve["time_s"][is_known], curve["load"][is_known], **CURVE, color=color)
     axes.axhline(row.mu_k, **style.DOTTED)
     axes.plot([row.first_s, row.last_s], [row.mean] * 2, **MEAN)
-    number = f"mean {row.mean:.4f}"
+    number = "no mean" if np.isnan(row.mean) else f"mean {row.mean:.4f}"
     axes.text(0.985, s=number, **WORDS, ha="right", transform=axes.transAxes)
     ticks = [row.mu_k - TICKS, row.mu_k, row.mu_k + TICKS]
-    axes.set_yticks(ticks, [f"{ticks[0]:g}", rf"$\mu_k$ = {row.mu_k:g}", f"{ticks[2]:g}"])
+    axes.set_yticks(
+        ticks, [f"{ticks[0]:g}", rf"$\mu_k$ = {row.mu_k:g}", f"{ticks[2]:g}"]
+    )
     axes.set(xlim=(0, curve["time_s"].iloc[-1]), ylim=LOADS)
 
 

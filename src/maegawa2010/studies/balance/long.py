@@ -1,6 +1,7 @@
 """Longer runs, in full studies only: the mean of F_X for many chains, R at the first
 global slip, the mean friction of each block, and mu_sapp with a heavy block."""
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
@@ -12,17 +13,13 @@ import pandas as pd
 
 from maegawa2010.studies.balance.tables import largest, mean_of
 from maegawa2010.studies.members import chain_of, draws, stack
+from maegawa2010.studies.runs import up_to_global_slip
 from maegawa2010.support.run_statistics import NOISE, nine_tenths
 from precursors.analysis.balance import distance
 from precursors.analysis.slips import find_precursors, find_slips
 from precursors.analysis.summary import summarise
 from precursors.model.chain import Chain, FloatArray
-from precursors.model.statics import (
-    longest_run,
-    maximal_compressions,
-    positions_from_compressions,
-)
-from precursors.solver.many import simulate_many
+from precursors.model.statics import maximal_compressions, positions_from_compressions
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 from precursors.support.waiting import in_threads
@@ -33,6 +30,7 @@ THETAS = ("-5/6", 0, "5/6")
 DRIVES = {"drive_stiffness": (1e5, 8e5, 3e6), "drive_velocity": (1e-4, 5e-4, 3e-3)}
 LEFT_OUT = 0.2  # of a run, at its start
 MOST_TRANSITIONS = 30_000_000
+SECONDS = 10.0  # after which a run without a global slip is given up
 # Points between two transitions, at which forces are read for their mean.
 POINTS = 8
 # Normal loads at places x from 0 to 1, but for a factor. Where no block keeps a share as
@@ -142,26 +140,27 @@ def first_slips_table(
 ) -> pd.DataFrame:
     """R at the first global slip, a row for each scene and number of blocks.
 
-    R_start_J is R of the new slider. The others are as `at_first_slip` has them, of the
-    chain as it is, and medians (_q50) of runs with noise in the normal loads.
+    runs have noise in the normal loads, and reached a global slip. R_start_J is R of the
+    new slider. The others are as `at_first_slip` has them, of the chain as it is, and
+    medians (_q50) over the noise.
     """
     rows = []
     for scene, slider in sliders.items():
         for n, runs in zip(settings["n_blocks"], settings["runs"], strict=True):
-            member = {**slider, "n_blocks": n, **draws(runs), "group": len(rows)}
+            member = {**slider, "n_blocks": n, **draws(runs), "group": n}
             members = stack([member]).to_dict("records")
             chains = [chain_of(one, seed) for one in members]
-            made = simulate_many(chains, longest_run(chains[0]), "global slip")
+            made = up_to_global_slip(chains, SECONDS)
             numbers = pd.DataFrame([at_first_slip(run) for run in made])
             row = {"scene": scene, "theta": chains[0].theta, "n_blocks": n}
-            row |= {"runs": runs, "R_start_J": distance(made[0], [0.0])[0]}
-            row |= numbers.iloc[0]
+            row |= {"runs": runs, "reached": int(numbers["R_J"][1:].notna().sum())}
+            row |= {"R_start_J": distance(made[0], [0.0])[0], **numbers.iloc[0]}
             rows.append(row | numbers[1:].median().add_suffix("_q50").to_dict())
     return pd.DataFrame(rows)
 
 
 def at_first_slip(run: Run) -> dict[str, float]:
-    """R at the onset of the first global slip [J]; bound = sqrt(2 K R)/F_Z, which F_X/F_Z
+    """R at the onset of the first global slip [J], or NaN; bound = sqrt(2 K R)/F_Z, which F_X/F_Z
     then keeps to mu_k; excess = mu_sapp - mu_k. Of the events of Fig. 13 the median
     bound on the distance of F_X/F_Z from the line F_X = mu_k W(L_p), line_bound, and
     the root mean square of that distance, line_rms.
@@ -173,10 +172,11 @@ def at_first_slip(run: Run) -> dict[str, float]:
     left = np.array([distance(run, t, n)[0] for t, n in zip(onset, front, strict=True)])
     carried = chain.mu_k * np.cumsum(chain.weights)[front - 1]
     bounds = np.sqrt(2.0 * chain.drive_stiffness * left) / chain.normal_load
+    reached = counted["is_global"].iloc[-1]
     miss = (counted["load_before"] - carried) / chain.normal_load
     return {
-        "R_J": left[-1],
-        "bound": bounds[-1],
+        "R_J": left[-1] if reached else math.nan,
+        "bound": bounds[-1] if reached else math.nan,
         "excess": summarise([run])["mu_sapp"].item() - chain.mu_k,
         "line_bound": float(np.median(bounds)),
         "line_rms": float(np.sqrt(np.mean(miss**2))),
@@ -192,14 +192,14 @@ def loads_table(
     share is the largest w_i/F_Z, reached how many of the runs with noise have a global
     slip, and `nine_tenths` of mu_sapp are of those.
     """
-    random = np.random.default_rng(seed)
     rows = []
     for load, n in product([*SHARED, *PLACES], settings["n_blocks"]):
         chain = Chain.from_slider(**{**slider, "n_blocks": n})
         weights = weights_of(load, n) * chain.normal_load
+        random = np.random.default_rng([seed, n])
         noise = NOISE * random.uniform(-1, 1, (settings["runs"], n))
         chains = [replace(chain, weights=weights * (1 + one)) for one in noise]
-        runs = simulate_many(chains, longest_run(chain), "global slip")
+        runs = up_to_global_slip(chains, SECONDS)
         found = summarise(runs)
         row = {"load": load, "n_blocks": n, "share": weights.max() / chain.normal_load}
         row |= {"runs": len(runs), "reached": int(found["reached"].sum())}

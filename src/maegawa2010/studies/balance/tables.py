@@ -51,7 +51,8 @@ def balance_tables(
         for n in n_blocks:
             chain = Chain.from_slider(**{**slider, "n_blocks": n})
             run = simulate(chain, duration)
-            labels = {"scene": scene, "theta": chain.theta, "n_blocks": n}
+            labels: dict[str, Any] = {"scene": scene, "n_blocks": n}
+            labels["theta"] = chain.theta
             rows.append(labels | row_of(run))
             curves.append(curve(run).assign(**labels))
     return {
@@ -119,9 +120,8 @@ def over_slips(run: Run, slips: pd.DataFrame) -> dict[str, float]:
     row: dict[str, float] = {"slips": len(over)}
     row["slips_backward"] = int(np.diff(n_backward, axis=0).astype(bool).sum())
     for name, joules in (("change", after - before), ("work", work)):
-        share = abs(joules) / before
-        row[f"{name}_median"] = float(np.median(share))
-        row[f"{name}_largest"] = float(share.max())
+        share = pd.Series(abs(joules) / before)
+        row |= {f"{name}_median": share.median(), f"{name}_largest": share.max()}
     return row
 
 
