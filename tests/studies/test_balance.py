@@ -23,7 +23,7 @@ READ = 1e-4
 
 def assert_explained(rows: pd.DataFrame) -> None:
     explained = rows["mu_k"] + rows["stored"] + rows["backward"] - rows["remainder"]
-    np.testing.assert_allclose(rows["mean"], explained, atol=1e-15)
+    np.testing.assert_allclose(rows["mean"], explained, rtol=0, atol=1e-14)
     assert abs(rows["remainder"]).max() < CLOSED
 
 
