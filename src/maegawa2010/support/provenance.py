@@ -27,7 +27,6 @@ NOT_RESULTS = (
     "README.md",
     "logs",
     "provenance.json",
-    "records",
     "report.html",
 )
 
