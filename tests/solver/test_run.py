@@ -9,7 +9,7 @@ import pytest
 from chains import SLIDER, first_transitions
 from random_chains import mild_chain
 
-from precursors import LargerRun, Record, Run, RunFileError, simulate
+from precursors import Record, Run, RunFileError, simulate
 
 # Of the duration: some tens of transitions of chains drawn at random.
 RANDOM = 1e-9
@@ -159,17 +159,13 @@ def test_whatever_byte_is_damaged_the_file_is_refused_or_has_the_same_run(run, p
     assert n_refused > 50
 
 
-def test_a_larger_run_is_read_by_the_name_of_its_numbers_in_older_files(run, path):
-    columns = [run.transitions[name] for name in run.transitions.dtype.names]
-    points = np.zeros((2, 2))
-    larger = LargerRun.from_columns(
-        run.chain, run.duration, *columns, numbers={"step": 1.0}, load_points=points
-    )
-    larger.save(path)
+def test_the_file_of_a_larger_chain_is_refused_with_what_reads_it(run, path):
     with h5py.File(path, "r+") as file:
-        file.attrs["larger"] = file.attrs["numbers"]
-        del file.attrs["numbers"]
-    assert Record.load(path).numbers == {"step": 1.0}
+        del file["states"]
+        file["load_points"] = np.zeros((2, 2))  # which only such a file has
+    words = r"^\S+run\.h5 is a run of a larger chain, .* git checkout 88883c9 reads it$"
+    with pytest.raises(RunFileError, match=words):
+        Record.load(path)
 
 
 def test_a_missing_file_is_named(tmp_path):

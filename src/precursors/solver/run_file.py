@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from importlib.metadata import version
 from io import BytesIO
@@ -22,6 +21,7 @@ if TYPE_CHECKING:
     from precursors.solver.run import Record
 
 FORMAT = "precursors run 6"
+LAST_LARGER = "88883c9"  # the last commit with friction that falls, and viscosity
 UNITS = {
     "time": "s",
     "block": "1",
@@ -35,7 +35,6 @@ UNITS = {
     "after": "1",
     "offset": "s",
     "weights": "N",
-    "load_points": "s, N",
 }
 SCALARS = ARGUMENTS[1:]
 
@@ -64,8 +63,6 @@ def write_record(record: Record, path: AnyPath) -> None:
             datasets |= {
                 f"states/{column}": of for column, of in value._asdict().items()
             }
-        elif name == "numbers":
-            texts["numbers"] = json.dumps(value)
         elif isinstance(value, np.ndarray):
             datasets[name] = value
         elif name != "chain":
@@ -104,7 +101,14 @@ def read_record(path: AnyPath) -> dict[str, Any]:
         with h5py.File(memory, "r") as file:
             if _text(file, "format") != FORMAT:
                 raise ValueError(f"its format is not {FORMAT!r}, which is read here")
+            if "load_points" in file:
+                raise RunFileError(
+                    f"{path} is a run of a larger chain, which commit {LAST_LARGER} was "
+                    f"the last to have: git checkout {LAST_LARGER} reads it"
+                )
             return _content(file)
+    except RunFileError:
+        raise
     except Exception as error:  # nearly any, as the file may hold anything
         reason = " ".join(str(error).split()).strip("'\"")
         raise RunFileError(
@@ -115,9 +119,7 @@ def read_record(path: AnyPath) -> dict[str, Any]:
 def _content(file: h5py.File) -> dict[str, Any]:
     """Columns and further attributes of the record in a file."""
     names = ["weights", "intervals", *(f"transitions/{name}" for name in COLUMNS)]
-    if "load_points" in file:
-        names.append("load_points")
-    elif "states" in file:
+    if "states" in file:
         names += ["start_positions", "start_velocities"]
         names += [f"states/{name}" for name in States._fields]
     found = {name: np.array(file[name]) for name in names}
@@ -133,10 +135,6 @@ def _content(file: h5py.File) -> dict[str, Any]:
         states = [found.pop(f"states/{name}") for name in States._fields]
         content["states"] = States(*states)
         content["evaluations"] = float(file.attrs["evaluations"])
-    if "load_points" in found:
-        # "larger" is the name in files written so far.
-        text = _text(file, "numbers") or _text(file, "larger")
-        content["numbers"] = json.loads(text)
     return content | found
 
 
