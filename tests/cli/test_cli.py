@@ -348,7 +348,7 @@ def test_a_load_curve_and_a_film_are_drawn_with_their_names(
         "--data-start=0.5",
     )
     chosen = ("--columns=t=Zeit [ms]", "--columns=L_p=Front [mm]")
-    told = (
+    printed = (
         "curve.csv: 2 points, t [s] 0 to 1, F_X [N] 9 to 120\n"
         "film.csv: 3 points, t [s] 1 to 8.5, L_p/L [-] 0.3 to 0.7\n"
         "curve.csv: 31.4 N rms from the run up to its first global slip\n"
@@ -357,7 +357,7 @@ def test_a_load_curve_and_a_film_are_drawn_with_their_names(
     monkeypatch.setattr(style, "save", lambda figure, *_: drawn.update(figure=figure))
     for width in (60, 85, 178):
         look = (f"--width={width}", "--font-size=9")
-        assert cli("plot", run_file, *files, *chosen, *look)[::2] == (0, told)
+        assert cli("plot", run_file, *files, *chosen, *look)[::2] == (0, printed)
         figure = drawn["figure"]
         (key,) = figure.legends
         box = key.get_window_extent()

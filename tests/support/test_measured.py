@@ -159,6 +159,8 @@ def test_front_lengths_are_shares_of_the_slider(file, front):
     name, value = front.split("\n")
     path = file(f"t [s],{name}\n0.4,{value}\n")
     assert curve(path).tolist() == [[0.4, 0.2]]
+    path = file(f"Zeit,{name}\n400,{value}\n")
+    assert curve(path, {"t": "Zeit [ms]"}).tolist() == [[0.4, 0.2]]
     path = file(f"t [s],{name}\n0.4,{value}0\n".replace(".20", "1.2"))
     refuses(curve, path, "line 2: L_p/L must be between 0 and 1")
 
