@@ -6,7 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 from precursors.model.chain import SLIDER, parse_theta, theta_from_load_cells
-from precursors.support.spreadsheet import read_weights
+from precursors.support.measured import read_weights
 
 Config = Mapping[str, Any]
 

@@ -161,7 +161,7 @@ def test_simulate_tells_what_a_run_says_and_where_it_is(cli, tmp_path):
             {"theta": -0.5, "normal_load": 200.0},
         ),
         (
-            "--profile p.csv --blocks 4 --normal-load 120",
+            "--profile p.csv --blocks 4 --normal-load 120 --header-line 2",
             {"weights": [10.0, 50.0, 20.0, 40.0]},
         ),
     ],
@@ -170,7 +170,7 @@ def test_the_chain_of_the_options_runs_to_its_first_global_slip(
     cli, tmp_path, monkeypatch, options, slider
 ):
     monkeypatch.chdir(tmp_path)
-    Path("p.csv").write_text("0;1\n2;3\n1;1\n0;4\n")
+    Path("p.csv").write_text("film 7\np [MPa]\n1\n5\n2\n4\n")
     cli("simulate", *options.split(), "--until-global-slip", "--output=run.h5")
     run = simulate(Chain.from_slider(**slider), until="global slip")
     assert Run.load("run.h5").chain == run.chain
@@ -245,20 +245,30 @@ def test_a_reader_that_has_enough_is_no_error():
         (["--figure=push", "--events=2"], "", "", {"figure": "push", "events": [2]}),
         (
             ["--width=85", "--font-size=9", "--font=DejaVu Serif", "--title=Mine"],
-            "t;F\n0;0\n1,5;120,5\n",
+            "t [s];F_X [N]\n0;0\n1,5;120,5\n",
             "data.csv: 2 points, t [s] 0 to 1.5, F_X [N] 0 to 120.5\n"
-            "data.csv, measured: 6.23 N rms from the run up to its first global slip\n",
+            "data.csv: 6.23 N rms from the run up to its first global slip\n",
             {"title": "Mine", "look": style.Look(85.0, 9.0, "DejaVu Serif")},
         ),
         (
             ["--figure=lengths"],
-            "F;L_p/L\n100;0,5\n",
+            "F_X [N];L_p/L\n100;0,5\n",
             "data.csv: 1 point, F_X [N] 100 to 100, L_p/L [-] 0.5 to 0.5\n"
-            "data.csv, measured: 0.0361 L rms from the run up to its first global slip\n",
+            "data.csv: 0.0361 L rms from the run up to its first global slip\n",
             {"figure": "lengths"},
         ),
+        (
+            ["--figure=curve"],
+            "t [s],F_X [N]\n0,-1\n1,-2\n",
+            "data.csv: 2 points, t [s] 0 to 1, F_X [N] -2 to -1\n"
+            "data.csv hardly overlaps the run: it reaches 0.01 times as high as F_X of the "
+            "run (--data-start says when the run begins, --columns the units)\n"
+            "data.csv: all of F_X is below zero: is its sign turned?\n"
+            "data.csv: 55.5 N rms from the run up to its first global slip\n",
+            {"figure": "curve"},
+        ),
     ],
-    ids=["load", "push", "look", "lengths"],
+    ids=["load", "push", "look", "lengths", "curve"],
 )
 def test_plot_draws_what_the_library_draws_as_it_is_told_to(
     cli, run_file, tmp_path, monkeypatch, options, text, err, asked
@@ -293,7 +303,7 @@ def test_measured_loads_begin_with_the_run_and_without_an_offset(
     Path("F.csv").write_text("F_X [N]\n5\n5\n60\n70\n")
     told = (
         "F.csv: 2 points, t [s] 0 to 0.5, F_X [N] 55 to 65\n"
-        "F.csv, measured: 42.9 N rms from the run up to its first global slip\n"
+        "F.csv: 42.9 N rms from the run up to its first global slip\n"
     )
     shift = ("--sample-rate=2", "--data-start=1", "--data-offset=5")
     assert cli("plot", run_file, "--data=F.csv", *shift)[::2] == (0, told)
@@ -308,7 +318,10 @@ def test_measured_loads_begin_with_the_run_and_without_an_offset(
             "t [s],F_X [N]\n0,4000\n1,4500\n2,5000\n",
             "it reaches 26 times as high as F_X of the run",
         ),
-        ("t,F\n4,0\n5,0.1\n", "0 of its 2 times are among those of the run, and it"),
+        (
+            "t [s],F_X [N]\n4,0\n5,0.1\n",
+            "0 of its 2 times are among those of the run, and it",
+        ),
     ],
 )
 def test_data_that_hardly_overlap_the_run_are_drawn_and_told(
@@ -319,14 +332,54 @@ def test_data_that_hardly_overlap_the_run_are_drawn_and_told(
     code, _, err = cli("plot", run_file, "--data=F.csv")
     assert (code, err.count("\n")) == (0, 3)
     assert f"F.csv hardly overlaps the run: {told}" in err
+    assert "(--data-start says when" in err
+
+
+def test_a_load_curve_and_a_film_are_drawn_with_their_names(
+    cli, run_file, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    Path("curve.csv").write_text("Zeit;F_X [N]\n1000;9\n2000;120\n")
+    Path("film.csv").write_text("t [s];Front\n1,5;30\n2,9;60\n9;70\n")
+    files = (
+        "--data=curve.csv",
+        "--data=film.csv",
+        "--data-start=1",
+        "--data-start=0.5",
+    )
+    chosen = ("--columns=t=Zeit [ms]", "--columns=L_p=Front [mm]")
+    told = (
+        "curve.csv: 2 points, t [s] 0 to 1, F_X [N] 9 to 120\n"
+        "film.csv: 3 points, t [s] 1 to 8.5, L_p/L [-] 0.3 to 0.7\n"
+        "curve.csv: 31.4 N rms from the run up to its first global slip\n"
+    )
+    drawn = {}
+    monkeypatch.setattr(style, "save", lambda figure, *_: drawn.update(figure=figure))
+    for width in (60, 85, 178):
+        look = (f"--width={width}", "--font-size=9")
+        assert cli("plot", run_file, *files, *chosen, *look)[::2] == (0, told)
+        figure = drawn["figure"]
+        (key,) = figure.legends
+        box = key.get_window_extent()
+        assert box.x0 >= 0
+        assert box.x1 <= figure.bbox.width
+        lines = figure.findobj(lambda a: getattr(a, "get_label", str)() == "film.csv")
+        points = [
+            line.get_xydata().tolist() for line in lines if len(line.get_xydata())
+        ]
+        assert [[1.0, 30.0], [2.4, 60.0], [8.5, 70.0]] in points
+    code, _, err = cli("plot", run_file, *files, "--data=film.csv", *chosen)
+    assert (code, err.count("\n")) == (2, 1)
+    assert "--data-start must be given once, or once for each of 3 files, but is" in err
 
 
 def test_measured_loads_are_echoed_and_so_named_in_the_figures(
     cli, tmp_path, monkeypatch
 ):
     monkeypatch.chdir(tmp_path)
-    Path("loads.csv").write_text("Normalkraft [N]\n30,0\n50,5\n40,0\n")
-    code, _, err = cli("simulate", "--weights=loads.csv", "--output=run.h5")
+    Path("loads.csv").write_text("Last;Ort\n30,0;1\n50,5;2\n40,0;3\n")
+    chosen = "--columns=w=Last [N]"
+    code, _, err = cli("simulate", "--weights=loads.csv", chosen, "--output=run.h5")
     assert (code, err) == (0, "loads.csv: 3 blocks, 30 to 50.5 N, F_Z = 120.5 N\n")
     run = Run.load("run.h5")
     for figure in (plot(run), plot(run, "lengths")):
@@ -416,7 +469,14 @@ def test_an_audit_that_meets_its_limit_of_work_is_undecided(cli, run_file, monke
         ("simulate --profile ''", 3, "No such file or directory: ''"),
         ("plot --data ''", 3, "No such file or directory: ''"),
         ("simulate --columns w=F", 2, "--columns w=... needs --weights"),
-        ("simulate --columns F", 2, "'F' must be t or F_X or L_p/L or w or p, = and"),
+        ("simulate --columns F", 2, "'F' is not of the form \"t=NAME [ms],F_X=NAME"),
+        (
+            "plot --columns time=Zeit,F_X=Kraft",
+            2,
+            "'time' is none of t, F_X, L_p/L, L_p, w, x, p",
+        ),
+        ("plot --header-line 2", 2, "--header-line needs --data, --weights or"),
+        ("plot --figure push --events 1_0", 2, "'1_0' is not a whole number"),
         (
             "simulate --blocks 1_0",
             2,
@@ -425,7 +485,11 @@ def test_an_audit_that_meets_its_limit_of_work_is_undecided(cli, run_file, monke
         ("simulate --theta 0_1", 2, "theta must be a number between -1 and 1"),
         ("simulate --mu-k 0_1", 2, "'0_1' is not a number"),
         ("plot --data-start 1", 2, "--data is needed with data_start"),
-        ("plot --figure lengths --data d.csv --data-start 1", 2, "need --figure load"),
+        (
+            "plot --figure lengths --data d.csv --data-start 1",
+            2,
+            "need --figure load or curve",
+        ),
         ("simulate --weights missing.csv", 3, "missing.csv: No such file"),
         (f"slips {shlex.quote(__file__)}", 1, "run file"),
         ("slips run.h5 --duration 0", 2, "run.h5: a run file cannot be combined"),

@@ -48,7 +48,7 @@ def crowded_scene():
         events,
         20.0,
         title="as a journal wants it, for a dollar: $5",
-        data=data,
+        data=[style.Measured("measured", data)],
         look=NARROW,
     )
 
@@ -87,12 +87,16 @@ def other_lengths():
     ]
     data = np.array([[50.0, 0.3], [90.0, 0.5]])
     return precursor_lengths.draw(
-        tables, data=data, title="costs $5 at most", look=NARROW
+        tables,
+        [style.Measured("measured", data)],
+        title="costs $5 at most",
+        look=NARROW,
     )
 
 
 def one_length():
-    return precursor_lengths.draw([slips()], data=np.array([[50.0, 0.3]]))
+    point = style.Measured("measured", np.array([[50.0, 0.3]]))
+    return precursor_lengths.draw([slips()], [point])
 
 
 PICTURES = {

@@ -88,8 +88,9 @@ def test_the_law_holds_for_measured_loads_and_the_axis_holds_the_data():
 
 
 def test_measured_lengths_are_shares_of_the_whole():
+    point = style.Measured("measured", np.array([[50.0, 30.0]]))
     with pytest.raises(ValueError, match="between 0 and 1"):
-        precursor_lengths.draw([slips()], data=np.array([[50.0, 30.0]]))
+        precursor_lengths.draw([slips()], [point])
 
 
 def test_every_method_with_a_line_has_a_marker_of_its_own():

@@ -177,3 +177,32 @@ def test_a_profile_is_integrated_over_each_block():
     for wrong in ([0.0, 0.0], [1.0, -1.0], [1.0, np.nan], [[[1.0]]]):
         with pytest.raises(ValueError, match="profile must be"):
             Chain.from_profile(wrong)
+
+
+# Areas below the lines between points, by hand [MPa mm].
+PRESSURES = {0: 1, 5: 3, 10: 2, 20: 2, 35: 5, 50: 4, 65: 3, 80: 3, 90: 2, 100: 0}
+AREAS = [22.5, 20.0, 30.0, 140 / 3, 130 / 3, 110 / 3, 185 / 6, 30.0, 25.0, 10.0]
+
+
+@pytest.mark.parametrize(
+    ("points", "areas"),
+    [
+        ({0: 1, 10: 2, 40: 5, 70: 3, 100: 0}, [40.0, 80.0, 260 / 3, 175 / 3, 20.0]),
+        (PRESSURES, AREAS),
+        ({25: 1, 75: 3}, [25.0, 37.5, 62.5, 75.0]),
+    ],
+)
+def test_a_profile_is_straight_between_its_positions(points, areas):
+    x, p = np.array([*points.items()], float).T
+    chain = Chain.from_profile(p, len(areas), positions=x / 1000)
+    expected = 400 * np.array(areas) / sum(areas)
+    np.testing.assert_allclose(chain.weights, expected, rtol=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("positions", "about"),
+    [([0.0, 0.0], "rise"), ([0.1], "one for each"), ([0.0, 0.2], "from 0 to 0.1 m")],
+)
+def test_positions_of_a_profile_are_on_the_slider(positions, about):
+    with pytest.raises(ValueError, match=about):
+        Chain.from_profile([1.0, 2.0], positions=positions)

@@ -140,10 +140,8 @@ def test_what_the_page_on_changes_shows_works(workspace, monkeypatch, capsys):
         found.setdefault(language, []).append(code)
     monkeypatch.chdir(workspace.path)
     (workspace.path / "mine.yaml").write_text(found["yaml"][0], encoding="utf-8")
-    (workspace.path / "loads.csv").write_text("50\n" * 8, encoding="utf-8")
-    (workspace.path / "measured.csv").write_text(
-        "t,F_X\n0,0\n2,150\n", encoding="utf-8"
-    )
+    for table in found["csv"]:
+        (workspace.path / table.split()[1]).write_text(table, encoding="utf-8")
     for line in "".join(found["sh"]).splitlines():
         program, *arguments = shlex.split(line, comments=True)
         if program == "precursors":

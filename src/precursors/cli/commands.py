@@ -1,5 +1,7 @@
 """The commands: each takes its options, and prints or writes what was asked for."""
 
+from __future__ import annotations
+
 import json
 import logging
 import shlex
@@ -9,7 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from importlib.metadata import version as installed_version
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -26,13 +28,17 @@ from precursors.model.checks import positive
 from precursors.solver.run import Record, Run, RunFileError
 from precursors.support.checkout import git_state
 from precursors.support.files import write_table
-from precursors.support.spreadsheet import (
+from precursors.support.measured import (
+    LENGTH,
     LOAD,
     TIME,
-    read_columns,
+    Quantity,
     read_profile,
     read_weights,
 )
+
+if TYPE_CHECKING:
+    from precursors.figures.style import Measured
 
 FOUND = "{counted} counted in Fig. 13, of {events_to_global_slip} "
 FIRST_SLIP = """\
@@ -67,6 +73,8 @@ ENDS_EARLY = (
     "; it ends at {ends_s:g} s, before the first global slip (true: {events_counted_true} "
     "events counted, mu_sapp {mu_sapp_true:.4f})"
 )
+# What columns are chosen for, in files of each option.
+KEYS = {"data": ("t", "F_X", "L_p/L"), "weights": ("w",), "profile": ("x", "p")}
 # Of measured times in a run, of measured loads and its own.
 LEAST_OVERLAP = 0.1
 # A run with more transitions up to the first global slip takes seconds to repeat.
@@ -126,7 +134,7 @@ def slips(arguments: Namespace) -> None:
 def plot(arguments: Namespace) -> None:
     """Draw a run: its load and slips over time, its front lengths against the load,
     the push in its springs, or a wave."""
-    from precursors.figures.run import AXES, Movie, plot
+    from precursors.figures.run import Movie, plot
     from precursors.figures.style import Look, save
 
     logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it tells of fonts
@@ -137,10 +145,11 @@ def plot(arguments: Namespace) -> None:
         raise ValueError(f"--data is needed with {', '.join(unused)}")
     run = run_of(arguments)
     if arguments.data is not None:
-        how["data"] = _measured(arguments, AXES[arguments.figure], run)
+        how["data"] = _measured(arguments, run)
     drawn: Any = plot(run, look=look, **how)
     if arguments.data is not None:
-        tell(f"{arguments.data}, {' '.join(drawn.get_label().split())}")
+        for line in drawn.get_label().splitlines():
+            tell(line)
     if isinstance(drawn, Movie):
         drawn.savefig(arguments.output)
     else:
@@ -148,47 +157,67 @@ def plot(arguments: Namespace) -> None:
     show_values({"output": str(arguments.output.resolve())}, arguments.json)
 
 
-def _measured(arguments: Namespace, axes: Sequence[str], run: Record) -> FloatArray:
-    """Measured values of a file, from the start of the run on, without the offset of
-    F_X; a line says what they are, and one if they hardly overlap the run."""
-    path = arguments.data
-    rate = arguments.sample_rate
-    start = arguments.data_start
-    if not axes:
-        raise ValueError(f"{path}: a {arguments.figure} takes no data")
-    if TIME not in axes and given(arguments, ("sample_rate", "data_start")):
-        raise ValueError("--sample-rate and --data-start need --figure load")
-    if rate is not None:
-        positive("--sample-rate", rate, "Hz")
-    data = read_columns(path, axes, rate, choice_of(arguments), run.chain.length)
-    if arguments.data_offset is not None:
-        data[:, axes.index(LOAD)] -= arguments.data_offset
-    if start is not None:
-        data[:, 0] -= start
-        data = data[data[:, 0] >= 0]
-    if not len(data):
-        raise ValueError(f"{path} ends before --data-start")
-    columns = dict(zip(axes, data.T, strict=True))
-    ranges = (f"{name} {min(x):g} to {max(x):g}" for name, x in columns.items())
-    tell(f"{path}: {several(len(data), 'point')}, {', '.join(ranges)}")
-    tell_apart(path, columns, run)
-    return data
+def _measured(arguments: Namespace, run: Record) -> list[Measured]:
+    """Measured values of each file, from the start of the run on, without the offset of
+    F_X; a line says what they are, and others if they may be something else."""
+    from precursors.figures.run import AXES, read_measured
+
+    figure = arguments.figure
+    if not AXES[figure]:
+        raise ValueError(f"{arguments.data[0]}: a {figure} takes no data")
+    x = AXES[figure][0]
+    if x is not TIME and given(arguments, ("sample_rate", "data_start")):
+        raise ValueError("--sample-rate and --data-start need --figure load or curve")
+    measured = []
+    names = [Path(path).name for path in arguments.data]
+    n = len(names)
+    for i, path in enumerate(arguments.data):
+        rate = of_file("sample-rate", arguments.sample_rate, i, n)
+        start = of_file("data-start", arguments.data_start, i, n)
+        offset = of_file("data-offset", arguments.data_offset, i, n)
+        if rate is not None:
+            positive("--sample-rate", rate, "Hz")
+        how = how_to_read(arguments, "data", i)
+        for each in read_measured(path, figure, run, sample_rate=rate, **how):
+            data = each.points
+            y = LENGTH if each.are_lengths else LOAD
+            if offset is not None and LOAD in (x, y):
+                data[:, (x, y).index(LOAD)] -= offset
+            if start is not None:
+                data[:, 0] -= start
+                data = data[data[:, 0] >= 0]
+            if not len(data):
+                raise ValueError(f"{path} ends before --data-start")
+            columns = {x: data[:, 0], y: data[:, 1]}
+            ranges = (f"{q} {x.min():g} to {x.max():g}" for q, x in columns.items())
+            tell(f"{path}: {several(len(data), 'point')}, {', '.join(ranges)}")
+            tell_doubts(path, columns, run)
+            name = path if names.count(each.name) > 1 else each.name
+            measured.append(replace(each, name=name, points=data))
+    return measured
 
 
-def tell_apart(path: str, data: Mapping[str, FloatArray], run: Record) -> None:
-    """Say if measured values hardly overlap a run, as in other units."""
+def tell_doubts(path: str, data: Mapping[Quantity, FloatArray], run: Record) -> None:
+    """Say if measured values hardly overlap a run, as in other units, or if all loads
+    are below zero."""
     from precursors.analysis.slips import slip_table
 
     times = data.get(TIME, np.zeros(1))
     inside = ((times >= 0) & (times <= run.duration)).sum()
-    reach = np.abs(data[LOAD]).max() / slip_table(run)["largest_load_N"].max()
     apart = []
     if inside < LEAST_OVERLAP * len(times):
         apart.append(f"{inside} of its {len(times)} times are among those of the run")
-    if reach <= LEAST_OVERLAP or reach >= 1 / LEAST_OVERLAP:
-        apart.append(f"it reaches {reach:.2g} times as high as F_X of the run")
+    if LOAD in data:
+        reach = np.abs(data[LOAD]).max() / slip_table(run)["largest_load_N"].max()
+        if reach <= LEAST_OVERLAP or reach >= 1 / LEAST_OVERLAP:
+            apart.append(f"it reaches {reach:.2g} times as high as F_X of the run")
     if apart:
-        tell(f"{path} hardly overlaps the run: {', and '.join(apart)}")
+        tell(
+            f"{path} hardly overlaps the run: {', and '.join(apart)} (--data-start says "
+            "when the run begins, --columns the units)"
+        )
+    if LOAD in data and data[LOAD].max() < 0:
+        tell(f"{path}: all of F_X is below zero: is its sign turned?")
 
 
 def audit(arguments: Namespace) -> None:
@@ -242,6 +271,7 @@ def run_of(arguments: Namespace) -> Record:
     """Read the run file, or run the chain of the options."""
     if arguments.file is None:
         return run_of_options(arguments)
+    check_choices(arguments)
     if given(arguments, (*MEASURED, *SLIDER_OPTIONS, *RUN)):
         raise ValueError(
             f"{arguments.file}: a run file cannot be combined with options of a chain"
@@ -259,10 +289,11 @@ def run_of_options(arguments: Namespace) -> Run:
     from precursors.solver.simulate import TransitionLimitError, simulate
     from precursors.support.compiled import Announcement
 
+    check_choices(arguments)
     event.register("numba:compile", Announcement())  # the first run takes long
     slider = given(arguments, SLIDER_OPTIONS)
     measured = given(arguments, MEASURED)
-    chain = _chain(slider, choice_of(arguments), **measured)
+    chain = _chain(arguments, slider, **measured)
     if measured:
         source = next(iter(measured.values()))
         loads = chain.weights
@@ -280,8 +311,8 @@ def run_of_options(arguments: Namespace) -> Run:
 
 
 def _chain(
+    arguments: Namespace,
     slider: dict[str, Any],
-    choice: Mapping[str, str],
     weights: str | None = None,
     profile: str | None = None,
     load_cells: Sequence[float] | None = None,
@@ -297,20 +328,48 @@ def _chain(
     elif cell_spacing is not None:
         raise ValueError("--cell-spacing needs --load-cells")
     if weights is not None:
-        return Chain.from_slider(weights=read_weights(weights, choice), **slider)
+        how = how_to_read(arguments, "weights")
+        return Chain.from_slider(weights=read_weights(weights, **how), **slider)
     if profile is not None:
-        return Chain.from_profile(read_profile(profile, choice), **slider)
+        *xs, shape = read_profile(profile, **how_to_read(arguments, "profile"))
+        return Chain.from_profile(shape, positions=xs[0] if xs else None, **slider)
     return Chain.from_slider(**slider)
 
 
-def choice_of(arguments: Namespace) -> dict[str, str]:
-    """Columns that were chosen, each of a file that is read."""
-    choice = arguments.columns or {}
-    for symbol in choice:
-        option = {"w": "weights", "p": "profile"}.get(symbol, "data")
-        if getattr(arguments, option, None) is None:
-            raise ValueError(f"--columns {symbol}=... needs --{option}")
-    return choice
+def check_choices(arguments: Namespace) -> None:
+    """Refuse a choice of columns or a line of names of a file that is not given."""
+    files = [option for option in KEYS if getattr(arguments, option, None) is not None]
+    for choice in arguments.columns or []:
+        for option, keys in KEYS.items():
+            for key in choice.keys() & {*keys} if option not in files else ():
+                raise ValueError(f"--columns {key}=... needs --{option}")
+    if arguments.header_line and not files:
+        raise ValueError("--header-line needs --data, --weights or --profile")
+
+
+def how_to_read(arguments: Namespace, option: str, place: int = 0) -> dict[str, Any]:
+    """Choice of columns and line of names for a file of an option, the files being
+    normal loads first, then the data in their order."""
+    data = getattr(arguments, "data", None) or []
+    loads = given(arguments, ("weights", "profile"))
+    n = len(loads) + len(data)
+    i = place + len(loads) if option == "data" else place
+    choice = of_file("columns", arguments.columns, i, n) or {}
+    return {
+        "choice": {key: choice[key] for key in KEYS[option] if key in choice},
+        "header_line": of_file("header-line", arguments.header_line, i, n),
+    }
+
+
+def of_file(option: str, values: Sequence[Any] | None, place: int, number: int) -> Any:
+    """The value of an option for one of some files, which is given once for all of them
+    or once for each."""
+    if values and len(values) not in (1, number):
+        raise ValueError(
+            f"--{option} must be given once, or once for each of {several(number, 'file')}, "
+            f"but is given {len(values)} times"
+        )
+    return values and values[place if len(values) > 1 else 0]
 
 
 def given(arguments: Namespace, names: Iterable[str]) -> dict[str, Any]:

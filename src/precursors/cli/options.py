@@ -8,8 +8,6 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, NoReturn
 
-from precursors.support.units import NAMES
-
 WRONG_USE = 2
 EPILOG = """\
 examples:
@@ -57,9 +55,19 @@ RUN = ("duration", "until", "max_transitions")
 # Of measured loads, and of measured values drawn over a run.
 MEASURED = ("weights", "profile", "load_cells", "cell_spacing")
 DATA = {
-    "sample_rate": "samples per second [Hz] of a file of F_X alone",
+    "sample_rate": "samples per second [Hz] of a file without times",
     "data_start": "time in the file at which the run starts [s] (0)",
     "data_offset": "F_X in the file at no load [N] (0)",
+}
+# Keys of a choice of columns, and the symbols of `precursors.support.measured`.
+COLUMNS = {
+    "t": "t",
+    "F_X": "F_X",
+    "L_p/L": "L_p/L",
+    "L_p": "L_p/L",
+    "w": "w",
+    "x": "x",
+    "p": "p",
 }
 SLIDER_OPTIONS = ("theta", "n_blocks", *CHAIN)
 
@@ -186,7 +194,8 @@ def _add_chain(command: Parser) -> None:
     )
     add_one(
         "--profile",
-        help="file with the shape of the normal load, a line a position, from the drive",
+        help="file with the shape of the normal load: a pressure at positions from the "
+        "drive on, or in equal cells",
     )
     add_one(
         "--load-cells",
@@ -198,9 +207,17 @@ def _add_chain(command: Parser) -> None:
     add(
         "--columns",
         type=_choice,
+        action="append",
         metavar="CHOICE",
-        help='names of columns, or numbers where there are none: of --data "t=Time,F_X=Ft", '
-        'of --weights "w=NAME", of --profile "p=NAME"',
+        help='names or numbers of columns, and units: of --data "t=Zeit [ms],F_X=Kraft [kN]" '
+        'or "L_p/L=3 [mm]", of --weights "w=2 [N]", of --profile "x=Ort [mm],p=Druck [MPa]"',
+    )
+    add(
+        "--header-line",
+        type=_whole,
+        action="append",
+        metavar="N",
+        help="line of a table that has the names of its columns, from 1",
     )
     add("--cell-spacing", type=_number, help=f"between them [m] ({CELL_SPACING:g})")
     _add_numbers(add, {name: f"{CHAIN[name]} ({SLIDER[name]:g})" for name in CHAIN})
@@ -223,55 +240,60 @@ def _add_look(command: Parser) -> None:
     add = command.add_argument
     add(
         "--figure",
-        choices=["load", "lengths", "push", "wave"],
+        choices=["load", "curve", "lengths", "push", "wave"],
         default="load",
-        help="load over time as in Fig. 10 (default), lengths as in Fig. 13; of two "
+        help="load over time as in Fig. 10 (default), its curve alone, lengths as in "
+        "Fig. 13; of two "
         "precursors and the global slip: the push in the springs, or a wave, in slow "
         "motion (SVG)",
     )
     add(
         "--events",
-        type=int,
+        type=_whole,
         nargs="+",
         metavar="N",
         help="slip events whose push is drawn instead, from 1",
     )
     add(
         "--data",
-        help="measured t [s] and F_X [N], or F_X [N] and L_p/L, drawn over it",
+        action="append",
+        help="measured t [s] and F_X [N], or t and L_p [mm], or F_X and L_p/L, drawn over "
+        "it; may be given again, and its options once for all or once for each",
     )
-    _add_numbers(add, DATA)
+    _add_numbers(add, DATA, action="append")
     add(
         "--width",
         dest="width_mm",
         type=_number,
-        help="width of the figure [mm] (178, or 85 for lengths)",
+        help="width of the figure [mm] (178, or 85 for a curve or lengths)",
     )
     add("--font-size", type=_number, help="size of the text [pt] (8)")
     add("--font", help="an installed font (DejaVu Sans)")
     add("--title", help="title of the figure")
 
 
-def _add_numbers(add: Callable[..., Any], meanings: Mapping[str, str]) -> None:
+def _add_numbers(
+    add: Callable[..., Any], meanings: Mapping[str, str], **how: Any
+) -> None:
     """Add options that take a number, by their names."""
     for name, meaning in meanings.items():
-        add(f"--{name.replace('_', '-')}", help=meaning, type=_number)
+        add(f"--{name.replace('_', '-')}", help=meaning, type=_number, **how)
 
 
 def _choice(text: str) -> dict[str, str]:
-    """Read names of columns by the symbols of what they are."""
-    symbols = [kind.split()[0] for kind in NAMES]
-    parts = re.split(rf"(?:^|,)\s*({'|'.join(symbols)})\s*=", text)
+    """Read columns by the symbols of what they are."""
+    begin, *parts = re.split(r"(?:^|,)\s*([^\s,=]+)\s*=", text)
     chosen = {
-        key: name.strip() for key, name in zip(parts[1::2], parts[2::2], strict=True)
+        COLUMNS.get(key, key): name.strip()
+        for key, name in zip(parts[::2], parts[1::2], strict=True)
     }
-    if (
-        parts[0]
-        or not len(parts) == 1 + 2 * len(chosen) > 1
-        or not all(chosen.values())
-    ):
+    if begin or not len(parts) == 2 * len(chosen) > 0 or not all(chosen.values()):
         raise argparse.ArgumentTypeError(
-            f"{text!r} must be {' or '.join(symbols)}, = and the name of a column"
+            f'{text!r} is not of the form "t=NAME [ms],F_X=NAME [kN]"'
+        )
+    for key in chosen.keys() - COLUMNS.values():
+        raise argparse.ArgumentTypeError(
+            f"{key!r} is none of {', '.join(COLUMNS)}, which columns are chosen for"
         )
     return chosen
 

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from precursors.figures import style
-from precursors.figures.style import Options
+from precursors.figures.style import Measured, Options
 from precursors.model.chain import FloatArray
 
 HEIGHT_MM = 76.0
@@ -32,10 +32,10 @@ CARRIED_TEXT = "dashed:\n" + r"$F_X = \mu_k W(L_p)$"
 MEASURED: Options = {
     "color": style.MEASURED,
     "linestyle": "none",
-    "marker": "+",
     "markersize": 5,
     "zorder": 2.5,
 }
+MARKERS = "+x^s"  # of measured points
 # What a curve is: at which of its events the name stands, from which side, and how far
 # away [pt].
 NAMES: dict[int, tuple[str, float, str, tuple[float, float]]] = {
@@ -51,15 +51,15 @@ ROOM = 0.28
 
 def draw(
     slips: Sequence[pd.DataFrame],
-    data: FloatArray = style.NO_DATA,
+    data: Sequence[Measured] = (),
     title: str = "",
     look: style.Look = style.LOOK,
     weights: ArrayLike | None = None,
 ) -> Figure:
     """Draw L_p/L against F_X at the onset, up to and including the first global slip.
 
-    `data`, shape (n, 2), are measured loads at the onset [N] and lengths L_p/L. Scenes
-    without a slip event are left out. `weights` [N] are the normal loads of the blocks
+    `data` are measured lengths L_p/L over the load at the onset [N]. Scenes without a
+    slip event are left out. `weights` [N] are the normal loads of the blocks
     if theta does not say them.
 
     Raises
@@ -67,17 +67,18 @@ def draw(
     ValueError
         If a measured length is not between 0 and 1.
     """
-    if not ((data[:, 1] >= 0) & (data[:, 1] <= 1)).all():
+    lengths = np.concatenate([[0.0], *(each.points[:, 1] for each in data)])
+    if not ((lengths >= 0) & (lengths <= 1)).all():
         raise ValueError("measured lengths must be L_p/L, between 0 and 1")
     has_key = len(data) > 0 or not _are_named_in_place(slips)
-    height_mm = HEIGHT_MM + LEGEND_MM * has_key * (1 + len(slips))
+    height_mm = HEIGHT_MM + LEGEND_MM * has_key * (max(len(data), 1) + len(slips))
     with style.page(style.COLUMN_MM, height_mm, look) as figure:
         axes = figure.subplots()
         axes.set_title(style.plain(title), loc="left", wrap=True)
-        if len(data):
-            told = _beside(slips[0], data) if len(slips) == 1 else "measured"
-            figure.set_label(told)
-            axes.plot(*data.T, **MEASURED, label=told)
+        told = [_beside(slips, each) for each in data]
+        for each, label, marker in zip(data, told, cycle(MARKERS), strict=False):
+            axes.plot(*each.points.T, **MEASURED, marker=marker, label=label)
+        figure.set_label("\n".join(" ".join(label.split()) for label in told))
         draw_lengths(axes, slips, weights)
         if has_key:
             style.draw_key(figure, ncols=1)
@@ -151,13 +152,16 @@ def _add_coefficient(axes: Axes, slips: pd.DataFrame) -> None:
         )
 
 
-def _beside(slips: pd.DataFrame, data: FloatArray) -> str:
-    """How far measured lengths are from the lines between the events of Fig. 13."""
-    counted = slips[slips["counted"]].sort_values("load_before_N")
+def _beside(slips: Sequence[pd.DataFrame], data: Measured) -> str:
+    """The name of measured lengths; of one scene also how far they are from the lines
+    between the events of Fig. 13."""
+    if len(slips) != 1:
+        return data.label
+    counted = slips[0][slips[0]["counted"]].sort_values("load_before_N")
     first = counted.loc[counted["is_global"], "load_before_N"].min()
     length = counted["front"] / counted["n_blocks"]
     curve = np.column_stack([counted["load_before_N"], length])
-    return style.measured(data, curve, first, "L")
+    return data.beside(curve, first, "L")
 
 
 def _sign(table: pd.DataFrame) -> int:

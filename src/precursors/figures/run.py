@@ -4,7 +4,9 @@ workflow."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from os import PathLike
+from pathlib import Path
 from typing import Any, Literal, overload
 
 import pandas as pd
@@ -14,15 +16,22 @@ from numpy.typing import ArrayLike
 from precursors.analysis.load_curve import load_trace
 from precursors.analysis.slips import slip_table
 from precursors.figures import precursor_lengths, push, scene, wave
-from precursors.figures.style import LOOK, NO_DATA, Look
+from precursors.figures.style import LOOK, Look, Measured
 from precursors.figures.wave import Movie
 from precursors.model.checks import number_array
 from precursors.solver.run import Record, Run
 from precursors.support.files import AnyPath
-from precursors.support.spreadsheet import LENGTH, LOAD, TIME, read_columns
+from precursors.support.measured import LENGTH, LOAD, TIME, Quantity, read_series
 
-# The axes of each figure, which are the columns of measured data.
-AXES = {"load": (TIME, LOAD), "lengths": (LOAD, LENGTH), "push": (), "wave": ()}
+Table = AnyPath | pd.DataFrame
+# What is measured for each figure: what lies along its axis, and what over it.
+AXES: dict[str, tuple[Quantity, ...]] = {
+    "load": (TIME, LOAD, LENGTH),
+    "curve": (TIME, LOAD),
+    "lengths": (LOAD, LENGTH),
+    "push": (),
+    "wave": (),
+}
 
 
 @overload
@@ -30,8 +39,8 @@ def plot(run: Record, figure: Literal["wave"]) -> Movie: ...
 @overload
 def plot(
     run: Record,
-    figure: Literal["load", "lengths", "push"] = "load",
-    data: ArrayLike | pd.DataFrame | AnyPath = NO_DATA,
+    figure: Literal["load", "curve", "lengths", "push"] = "load",
+    data: ArrayLike | Table | Sequence[Table | Measured] | None = None,
     title: str | None = None,
     look: Look | Mapping[str, Any] = LOOK,
     events: Sequence[int] = (),
@@ -39,7 +48,7 @@ def plot(
 def plot(
     run: Record,
     figure: str = "load",
-    data: ArrayLike | pd.DataFrame | AnyPath = NO_DATA,
+    data: ArrayLike | Table | Sequence[Table | Measured] | None = None,
     title: str | None = None,
     look: Look | Mapping[str, Any] = LOOK,
     events: Sequence[int] = (),
@@ -51,12 +60,12 @@ def plot(
     ----------
     run : Run
         The run; of a `Record`, only the lengths are drawn.
-    figure : "load", "lengths", "push" or "wave"
-        As Figs. 10-12, as Fig. 13, what springs carry, or an animated SVG, which takes
-        no other parameter.
-    data : array, shape (n, 2), DataFrame or path of a table, optional
+    figure : "load", "curve", "lengths", "push" or "wave"
+        As Figs. 10-12, their load alone, as Fig. 13, what springs carry, or an animated
+        SVG, which takes no other parameter.
+    data : array, shape (n, 2), DataFrame or path of a table, or a list, optional
         Measured t [s] and F_X [N], or F_X [N] and L_p/L, which are drawn over it, with
-        their distance.
+        their distance. Tables of a load may also have L_p over t; a list has tables.
     title : str, optional
         By default the number of blocks, or nothing above lengths.
     look : Look or dict, optional
@@ -83,21 +92,55 @@ def plot(
     if figure != "lengths" and not isinstance(run, Run):
         raise ValueError(f"a {figure} needs a Run, but this is a Record")
     if not AXES[figure]:
-        if data is not NO_DATA:
+        if data is not None:
             raise ValueError(f"a {figure} takes no data")
         if figure == "push":
             return push.draw(run, slip_table(run), events, title, look)
         if title is not None or look != LOOK:
             raise ValueError("a wave takes no title or look")
         return wave.draw(run, slip_table(run))
-    if isinstance(data, (str, PathLike, pd.DataFrame)):
-        data = read_columns(data, AXES[figure], length=run.chain.length)
-    points = number_array("data", data, "SI units")
-    if points.ndim != 2 or points.shape[1] != 2:
-        raise ValueError(f"data must have two columns, but have shape {points.shape}")
+    measured = _measured(data, figure, run)
     slips = slip_table(run)
     if figure == "lengths":
         weights = run.chain.weights
-        return precursor_lengths.draw([slips], points, title or "", look, weights)
+        return precursor_lengths.draw([slips], measured, title or "", look, weights)
     title = f"N = {run.chain.n_blocks}" if title is None else title
-    return scene.draw(slips, load_trace(run), title, points, look=look)
+    if figure == "curve":
+        return scene.draw_curve(slips, load_trace(run), title, measured, look)
+    in_metres = [
+        replace(each, points=each.points * [1.0, run.chain.length])
+        if each.are_lengths
+        else each
+        for each in measured
+    ]
+    return scene.draw(slips, load_trace(run), title, in_metres, look)
+
+
+def read_measured(
+    source: Table, figure: str, run: Record, **how: Any
+) -> list[Measured]:
+    """Read what a table has for a figure of a run; `how` as for `read_series`."""
+    x, *ys = AXES[figure]
+    name = Path(source).name if isinstance(source, (str, PathLike)) else "measured"
+    return [
+        Measured(name, points, y is LENGTH)
+        for y, points in read_series(source, x, ys, run.chain.length, **how)
+    ]
+
+
+def _measured(data: Any, figure: str, run: Record) -> list[Measured]:
+    """Measured points of a table, of a list of tables, or in an array."""
+    if data is None:
+        return []
+    kinds = (str, PathLike, pd.DataFrame, Measured)
+    tables = [data] if isinstance(data, kinds) else data
+    if isinstance(tables, list) and all(isinstance(each, kinds) for each in tables):
+        read = [
+            [each] if isinstance(each, Measured) else read_measured(each, figure, run)
+            for each in tables
+        ]
+        return [each for of_table in read for each in of_table]
+    points = number_array("data", data, "SI units")
+    if points.ndim != 2 or points.shape[1] != 2:
+        raise ValueError(f"data must have two columns, but have shape {points.shape}")
+    return [Measured("measured", points, figure == "lengths")]

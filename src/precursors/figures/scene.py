@@ -1,6 +1,8 @@
 """Figs. 10-12, and any other scene: the tangential load over time, the staircase that it
 loses, and when and where blocks slipped."""
 
+from collections.abc import Sequence
+from itertools import cycle
 from typing import Any
 
 import numpy as np
@@ -9,10 +11,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from precursors.figures import style
-from precursors.figures.style import Options
-from precursors.model.chain import FloatArray
+from precursors.figures.style import Measured, Options
 
 HEIGHT_MM = 58.0
+CURVE_MM = 62.0  # of the load alone
 KEY_MM = 8.0
 NARROW_MM = 150.0  # below this width the magnified view stands below, not beside
 ZOOM_END = 1.04  # of the magnified view, in times of the first global slip
@@ -45,27 +47,29 @@ TO_THE_EDGE: Options = {
 LOADS = {"tangential_load_N": "$F_X$ [N]", "K_x1_N": "$K x_1$ [N]"}
 STAIRCASE = "$K x_1 = K V t - F_X$: a step for each slip"
 MEASURED: Options = {"color": style.MEASURED, "zorder": 1.8}
+LINES = ("-", "--", "-.", ":")  # of measured loads
+MARKERS = "+x^s"  # of measured front lengths
 
 
 def draw(
     slips: pd.DataFrame,
     trace: pd.DataFrame,
     title: str = "",
-    data: FloatArray = style.NO_DATA,
+    data: Sequence[Measured] = (),
     look: style.Look = style.LOOK,
 ) -> Figure:
     """Draw F_X(t) and all slip events, and K x_1 = K V t - F_X, magnified up to the
     first global slip.
 
     An event that goes on when the run ends is a band. The slip table may be empty; the
-    trace is straight between its rows. `data`, shape (n, 2), are measured times [s] and
-    loads [N].
+    trace is straight between its rows. `data` are measured loads [N], or front lengths
+    [m], over time [s].
     """
     width_mm = look.width_mm or style.PAGE_MM
     slips = _with_kinds(slips)
     first_s = slips.loc[slips["is_global"], "onset_s"].min()
-    times, _ = data.T
-    ends = [np.nanmax([trace["time_s"].iloc[-1], ZOOM_END * first_s, *times])]
+    start, end = _span(trace, data)
+    ends = [np.fmax(end, ZOOM_END * first_s)]
     views = [list(LOADS)]
     if first_s > 0:
         ends.append(ZOOM_END * first_s)
@@ -73,7 +77,7 @@ def draw(
     n = len(views)
     heights = [1.3] * len(views[0]) + [1.0]
     rows = n if width_mm < NARROW_MM else 1
-    height_mm = HEIGHT_MM * rows + KEY_MM * (2 * rows - 1)
+    height_mm = HEIGHT_MM * rows + KEY_MM * max(2 * rows - 1, 1 + len(data))
     with style.page(width_mm, height_mm, look) as figure:
         panels = figure.subplots(
             len(heights) * rows, n // rows, squeeze=False, height_ratios=heights * rows
@@ -85,21 +89,71 @@ def draw(
             _draw_events(axes[-1], slips[slips["onset_s"] <= end], trace)
             axes[-1].set_xlabel("Time $t$ [s]")
             for panel in axes:
-                panel.set_xlim(min([0, *times]), end)
+                panel.set_xlim(start, end)
                 panel.tick_params(labelbottom=panel is axes[-1])
                 if slips["is_global"].any():
                     panel.axvline(first_s, **FIRST_GLOBAL)
-        if len(data):
-            curve = trace[["time_s", "tangential_load_N"]].to_numpy()
-            told = style.measured(data, curve, first_s, "N")
-            figure.set_label(told)
-            columns[0][0].plot(*data.T, **MEASURED, label=told)
+        _draw_measured_loads(columns[0][0], data, trace, first_s)
+        for axes in columns:
+            _draw_measured_lengths(axes[-1], data)
         if n > 1:
             _magnify(columns, first_s, trace)
         figure.align_ylabels()
         columns[0][0].set_title(_title(slips, title), loc="left", pad=4, wrap=True)
         style.draw_key(figure, ncols=int(width_mm / look.font_size / KEY_WIDTH))
     return figure
+
+
+def draw_curve(
+    slips: pd.DataFrame,
+    trace: pd.DataFrame,
+    title: str = "",
+    data: Sequence[Measured] = (),
+    look: style.Look = style.LOOK,
+) -> Figure:
+    """Draw F_X(t) alone, with measured loads [N] over time [s]."""
+    first_s = slips.loc[slips["is_global"].astype(bool), "onset_s"].min()
+    start, end = _span(trace, data)
+    with style.page(style.COLUMN_MM, CURVE_MM, look) as figure:
+        axes = figure.subplots()
+        _draw_load(axes, "tangential_load_N", slips, trace, end)
+        axes.set(xlim=(start, end), xlabel="Time $t$ [s]")
+        if first_s > 0:
+            axes.axvline(first_s, **FIRST_GLOBAL)
+        _draw_measured_loads(axes, data, trace, first_s)
+        axes.set_title(_title(slips, title), loc="left", pad=4, wrap=True)
+        style.draw_key(figure, ncols=1)
+    return figure
+
+
+def _span(trace: pd.DataFrame, data: Sequence[Measured]) -> tuple[float, float]:
+    """The first and last time of a run and of what was measured, [s]."""
+    times = np.concatenate(
+        [[0.0], trace["time_s"], *(each.points[:, 0] for each in data)]
+    )
+    return times.min(), times.max()
+
+
+def _draw_measured_loads(
+    axes: Axes, data: Sequence[Measured], trace: pd.DataFrame, first_s: float
+) -> None:
+    """Draw measured loads; the figure gets lines of text that say how far they are."""
+    curve = trace[["time_s", "tangential_load_N"]].to_numpy()
+    loads = [each for each in data if not each.are_lengths]
+    told = [each.beside(curve, first_s, "N") for each in loads]
+    for each, label, line in zip(loads, told, cycle(LINES), strict=False):
+        axes.plot(*each.points.T, **MEASURED, linestyle=line, label=label)
+    axes.figure.set_label("\n".join(" ".join(label.split()) for label in told))
+
+
+def _draw_measured_lengths(axes: Axes, data: Sequence[Measured]) -> None:
+    lengths = [each for each in data if each.are_lengths]
+    for each, marker in zip(lengths, cycle(MARKERS), strict=False):
+        times, reached = each.points.T
+        mark: Options = {"linestyle": "none", "marker": marker, "zorder": 2.5}
+        axes.plot(
+            times, style.MM_PER_M * reached, **(MEASURED | mark), label=each.label
+        )
 
 
 def _with_kinds(slips: pd.DataFrame) -> pd.DataFrame:

@@ -9,6 +9,7 @@ from fractions import Fraction
 from io import BytesIO
 from math import isclose, isnan
 from pathlib import Path
+from textwrap import fill
 from typing import Any
 
 import matplotlib.style
@@ -45,7 +46,6 @@ LOADINGS = {
     1: "more load at the leading edge",
 }
 PALE = "#E6E6E6"
-NO_DATA = np.empty((0, 2))  # measured points that a scene is drawn without
 
 MM_PER_M = 1e3
 MM_PER_INCH = 25.4
@@ -53,6 +53,10 @@ COLUMN_MM = 85.0
 PAGE_MM = 178.0
 PNG_DPI = 300
 SCREEN_DPI = 120
+# Of a line of a key that has the name of a file, and of the name in it.
+MOST_LETTERS = 45
+LEAST_LETTERS = 12
+LONGEST_NAME = 29
 
 MU_SAPP_LABEL = r"$\mu_\mathrm{sapp}$ [-]"
 DOTTED: Options = {"color": GREY, "linewidth": 0.6, "linestyle": ":", "zorder": 1}
@@ -225,20 +229,31 @@ def theta_color(theta: float) -> str:
     return TRAILING if theta < 0 else LEADING if theta > 0 else UNIFORM
 
 
-def measured(
-    data: NDArray[np.float64],
-    curve: NDArray[np.float64],
-    first_global: float,
-    unit: str,
-) -> str:
-    """Say how far measured points are from the lines between points of a run, up to
-    its first global slip, or NaN."""
-    seen, values = data[~(data[:, 0] > first_global)].T
-    if not (len(seen) and len(curve)):
-        return "measured"
-    rms = np.sqrt(np.mean((values - np.interp(seen, *curve.T)) ** 2))
-    until = "end" if isnan(first_global) else "first global slip"
-    return f"measured: {rms:.3g} {unit} rms from the run\nup to its {until}"
+@dataclass(frozen=True)
+class Measured:
+    """Measured points, shape (n, 2): loads F_X or, if so marked, front lengths; the key
+    names them."""
+
+    name: str
+    points: NDArray[np.float64]
+    are_lengths: bool = False
+
+    @property
+    def label(self) -> str:
+        """The name in the key, of which a long one has its beginning and end."""
+        is_long = len(self.name) > LONGEST_NAME
+        return plain(f"{self.name[:13]}...{self.name[-13:]}" if is_long else self.name)
+
+    def beside(self, curve: NDArray[np.float64], first_global: float, unit: str) -> str:
+        """The name, and how far the points are from the lines between points of a run,
+        up to its first global slip, or NaN."""
+        seen, values = self.points[~(self.points[:, 0] > first_global)].T
+        if not (len(seen) and len(curve)):
+            return self.label
+        rms = np.sqrt(np.mean((values - np.interp(seen, *curve.T)) ** 2))
+        until = "end" if isnan(first_global) else "first global slip"
+        first = f"{self.label}: {rms:.3g} {unit} rms from the run"
+        return f"{fill(first, MOST_LETTERS)}\nup to its {until}"
 
 
 def plain(text: str) -> str:
@@ -256,15 +271,26 @@ def plain(text: str) -> str:
 
 def draw_key(figure: Figure, entries: Sequence[Any] = (), ncols: int = 0) -> None:
     """Draw a key below the panels, for marks that mean the same in all of them; by
-    default of all that is drawn and has a label."""
+    default of all that is drawn and has a label. It has fewer columns, or shorter
+    lines, if they would be wider than the page."""
     found = {
         label: handle
         for axes in figure.axes
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
     }
     entries = entries or list(found.values())
-    columns = ncols or len(entries)
-    figure.legend(handles=entries, loc="outside lower center", ncols=columns)
+    for columns in range(ncols or len(entries), 0, -1):
+        key = figure.legend(handles=entries, loc="outside lower center", ncols=columns)
+        if key.get_window_extent().width <= figure.bbox.width:
+            return
+        if columns > 1:
+            key.remove()
+    words = {text: text.get_text() for text in key.get_texts()}
+    for letters in range(MOST_LETTERS, LEAST_LETTERS, -2):
+        for text, label in words.items():
+            text.set_text(label if "$" in label else fill(label, letters))
+        if key.get_window_extent().width <= figure.bbox.width:
+            return
 
 
 def mark(label: str, **look: Any) -> Line2D:

@@ -1,0 +1,320 @@
+"""Measured tables: a column is found by its name and its unit, or it is chosen."""
+
+from __future__ import annotations
+
+import csv
+import math
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from os import PathLike
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from precursors.support.files import AnyPath, read_bytes
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Numbers = NDArray[np.float64]
+Choice = Mapping[str, str]  # columns by the symbols of quantities
+BY_NAME: Choice = {}
+
+
+@dataclass(frozen=True, eq=False)
+class Quantity:
+    """What a column may hold: its symbol and unit here; names that say it; words that
+    say it if no other column has a unit of it; and what one of each unit is."""
+
+    symbol: str
+    unit: str
+    names: tuple[str, ...]
+    words: tuple[str, ...]
+    units: Mapping[str, float]
+
+    def __str__(self) -> str:
+        return f"{self.symbol} [{self.unit}]"
+
+    def is_said_by(self, name: str) -> bool:
+        """Whether a name without its unit says this quantity."""
+        return name in self.names or name.casefold() in self.words
+
+
+SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0}
+NEWTONS = {"N": 1.0, "kN": 1e3, "MN": 1e6, "mN": 1e-3, "lbf": 4.4482216152605}
+METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "in": 0.0254}
+SHARES = {"-": 1.0, "1": 1.0, "%": 1e-2}
+# Of a pressure only the shape counts.
+PRESSURES = dict.fromkeys(["Pa", "kPa", "MPa", "bar", "psi", "N/mm2", *SHARES], 1.0)
+
+TIME = Quantity("t", "s", ("t",), ("time",), SECONDS)
+LOAD = Quantity("F_X", "N", ("F_X",), ("force", "load"), NEWTONS)
+LENGTH = Quantity("L_p/L", "-", ("L_p/L", "L_p"), ("front length",), METRES | SHARES)
+WEIGHT = Quantity("w", "N", ("w",), ("force", "load"), NEWTONS)
+POSITION = Quantity("x", "m", ("x",), ("position",), METRES)
+PRESSURE = Quantity("p", "MPa", ("p",), ("pressure",), PRESSURES)
+
+COMMENT = re.compile(r"\s*[#%]")
+# What a spreadsheet writes where a formula fails, as #N/A, is no comment.
+FAILED = re.compile(r"\s*#[^\W\d_a-z][^\s;,a-z]*\s*([;,\t]|$)")
+NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d{1,3})?", re.ASCII)
+NAME_AND_UNIT = re.compile(r"(.*?)\s*[\[(]\s*([^\[\]()]*?)\s*[\])]")
+ROUNDING = 1e-12  # by which a share that is computed may be above 1
+
+
+class Match(NamedTuple):
+    """A column for a quantity: how to choose it, and its place and unit or the reason
+    why it is not certain."""
+
+    suggestion: str
+    place: int = 0
+    unit: str = ""
+    doubt: str = ""
+
+
+class Table(NamedTuple):
+    """A table of text. Its rows have the numbers of their lines in a file, or count
+    from 1 in a DataFrame, which has no separator."""
+
+    names: Sequence[str]
+    lines: Sequence[int]
+    rows: Sequence[Sequence[str]]
+    separator: str
+
+    def columns(
+        self, needed: Sequence[Quantity], choice: Choice, length: float = math.nan
+    ) -> Numbers:
+        """Numbers of some quantities in their units, shape (rows, quantities).
+
+        `length` is that of the slider [m], for front lengths that are no shares.
+
+        Raises
+        ------
+        ValueError
+            If a column is not certain, or a row is not whole.
+        """
+        # A column alone needs no name.
+        names = self.names or [str(needed[0]) if len(needed) == 1 else ""]
+        found = [(q, _match(q, names, choice.get(q.symbol, ""))) for q in needed]
+        doubts = [match.doubt for _, match in found if match.doubt]
+        if doubts:
+            self._check_that_numbers_are_below()
+        for line, row in zip(self.lines, self.rows, strict=True):
+            if len(row) != len(names):
+                raise ValueError(
+                    f"line {line}: cells: {len(row)}, columns: {len(names)} (write decimal "
+                    "points, or semicolons between columns, and 0 for no load)"
+                )
+        if doubts:
+            chosen = ",".join(f"{q.symbol}={match.suggestion}" for q, match in found)
+            how = "choose with --columns" if self.separator else "rename them, as in"
+            called = ", ".join(map(repr, names))
+            raise ValueError(
+                f'{"; ".join(doubts)}; the columns are {called}: {how} "{chosen}"'
+            )
+        cells = "".join(row[match.place] for row in self.rows for _, match in found)
+        if self.separator in (";", "\t") and "," in cells and "." in cells:
+            raise ValueError("it has decimal commas and decimal points: write one")
+        return np.column_stack([self._numbers(*pair, length) for pair in found])
+
+    def _numbers(self, quantity: Quantity, match: Match, length: float) -> Numbers:
+        is_share = quantity is LENGTH
+        scale = quantity.units[match.unit]
+        if is_share and match.unit in METRES:
+            scale /= length
+        values: list[float] = []
+        for line, row in zip(self.lines, self.rows, strict=True):
+            cell = row[match.place]
+            text = cell if self.separator in ("", ",") else cell.replace(",", ".")
+            value = scale * float(text) if NUMBER.fullmatch(text) else math.nan
+            fault = ""
+            if not math.isfinite(value):
+                fault = f"{cell[:40]!r} is not a number: write one, or 0 for no load"
+            elif quantity in (TIME, POSITION) and values and value <= values[-1]:
+                fault = f"{quantity} must rise, but {value:g} follows {values[-1]:g}"
+            elif is_share and not 0 <= value <= 1 + ROUNDING:
+                fault = f"L_p/L must be between 0 and 1, but is {value:g}"
+            if fault:
+                raise ValueError(
+                    f"{'line' if self.separator else 'row'} {line}: {fault}"
+                )
+            values.append(min(value, 1.0) if is_share else value)
+        return np.array(values)
+
+    def _check_that_numbers_are_below(self) -> None:
+        begins = [bool(row) and _is_value(row[0][:1] + "0") for row in self.rows]
+        if self.separator and True in begins[1:] and not begins[0]:
+            line = self.lines[begins.index(True, 1) - 1]
+            raise ValueError(
+                f"{self.names[0]!r} is no name of a column: if line {line} has the names, "
+                f"--header-line {line}"
+            )
+
+
+def read_table(source: AnyPath | pd.DataFrame, header_line: int | None = None) -> Table:
+    """Read a table from its names on, without comments and empty lines at the end.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be read.
+    ValueError
+        If it is no table.
+    """
+    if not isinstance(source, (str, PathLike)):
+        rows = [list(map(str, row)) for row in source.itertuples(index=False)]
+        return Table([*map(str, source.columns)], range(1, len(rows) + 1), rows, "")
+    try:
+        text = read_bytes(source).decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise ValueError("it is not UTF-8: save the table as CSV (UTF-8)") from None
+    lines = {
+        i: line
+        for i, line in enumerate(re.split("\r\n?|\n", text), 1)
+        if i == header_line or FAILED.match(line) or not COMMENT.match(line)
+    }
+    while lines and not lines[max(lines)].strip():
+        lines.popitem()
+    first = min(lines, default=1) if header_line is None else header_line
+    if not lines.get(first, "").strip():
+        raise ValueError(f"line {first} has no names of columns (see --header-line)")
+    bare = re.sub('"[^"]*"', "", lines[first])
+    separator = next((sign for sign in ";\t" if sign in bare), ",")
+    below = {i: line for i, line in lines.items() if i >= first}
+    reader = csv.reader(
+        below.values(), delimiter=separator, skipinitialspace=True, strict=True
+    )
+    names, *rows = [[cell.strip() for cell in row] for row in reader]
+    if len(rows) + 1 < len(below):
+        raise ValueError("a quotation mark is not closed on its line")
+    if len(names) == 1 and _is_value(names[0]) and header_line is None:
+        return Table([], [*below], [names, *rows], separator)
+    for cell in filter(_is_value, names):
+        raise ValueError(f"line {first}: {cell!r} is no name; all columns need names")
+    if not rows:
+        raise ValueError("there are no numbers")
+    return Table(names, [*below][1:], rows, separator)
+
+
+def read_series(
+    source: AnyPath | pd.DataFrame,
+    x: Quantity,
+    ys: Sequence[Quantity],
+    length: float,
+    choice: Choice = BY_NAME,
+    header_line: int | None = None,
+    sample_rate: float | None = None,
+) -> list[tuple[Quantity, Numbers]]:
+    """Read x beside each y that is chosen, or that a name says, shape (rows, 2).
+
+    With a `sample_rate` [Hz] the table has no times. The other arguments are those of
+    `read_table` and `Table.columns`.
+    """
+    with refusals_of(source):
+        table = read_table(source, header_line)
+        words = [_parts(name)[0] for name in table.names]
+        said = [q for q in (x, *ys) if any(map(q.is_said_by, words))]
+        chosen = [q for q in (x, *ys) if q.symbol in choice]
+        if sample_rate is not None and x in said + chosen:
+            raise ValueError("it has times: leave out --sample-rate")
+        series = []
+        for y in [q for q in chosen or said if q is not x] or ys[:1]:
+            needed = [x, y] if sample_rate is None else [y]
+            columns = table.columns(needed, choice, length)
+            if sample_rate is not None:
+                times = np.arange(len(columns)) / sample_rate
+                columns = np.column_stack([times, columns])
+            series.append((y, columns))
+        return series
+
+
+def read_weights(
+    path: AnyPath, choice: Choice = BY_NAME, header_line: int | None = None
+) -> list[float]:
+    """Read normal loads [N], a row for each block, which a column `block` may number."""
+    with refusals_of(path):
+        table = read_table(path, header_line)
+        weights = table.columns([WEIGHT], choice)[:, 0].tolist()
+        for place, name in enumerate(table.names):
+            blocks = [row[place] for row in table.rows]
+            for i, block in enumerate(blocks if name.casefold() == "block" else [], 1):
+                if block != str(i):
+                    line = table.lines[i - 1]
+                    raise ValueError(
+                        f"line {line}: block must be {i}, but is {block!r}"
+                    )
+        return weights
+
+
+def read_profile(
+    path: AnyPath, choice: Choice = BY_NAME, header_line: int | None = None
+) -> Numbers:
+    """Read positions [m] from the pushed end and the pressure there in any unit, shape
+    (2, rows); a column alone is the pressure in equal cells, shape (1, rows)."""
+    with refusals_of(path):
+        table = read_table(path, header_line)
+        needed = [POSITION, PRESSURE] if len(table.names) > 1 else [PRESSURE]
+        return table.columns(needed, choice).T
+
+
+@contextmanager
+def refusals_of(source: object) -> Iterator[None]:
+    """Puts the name of a table before what is wrong in it."""
+    try:
+        yield
+    except (ValueError, csv.Error) as error:
+        name = source if isinstance(source, (str, PathLike)) else "data"
+        raise ValueError(f"{name}: {error}") from None
+
+
+def _match(quantity: Quantity, names: Sequence[str], chosen: str) -> Match:
+    """The column that is chosen by its name or number, else that which is named."""
+    parts = [_parts(name) for name in names]
+    wanted, chosen_unit = _parts(chosen)
+    if chosen:
+        exact = [name == chosen for name in names]
+        alike = [
+            wanted in (name, words, str(i))
+            for i, (name, (words, _)) in enumerate(zip(names, parts, strict=True), 1)
+        ]
+    else:
+        exact = [words in quantity.names for words, _ in parts]
+        alike = [quantity.is_said_by(w) or u in quantity.units for w, u in parts]
+    places = np.flatnonzero(exact if any(exact) else alike).tolist()
+    if len(places) != 1:
+        called = " or ".join(f"column {i + 1}, {names[i]!r}" for i in places)
+        doubt = f"{quantity} may be {called}"
+        if not called:
+            doubt = f"no column is {chosen or quantity}"
+        return Match(f"NAME [{quantity.unit}]", doubt=doubt)
+    (place,) = places
+    words, own_unit = parts[place]
+    unit = own_unit if chosen == names[place] else chosen_unit or own_unit
+    if words == LENGTH.symbol:
+        unit = unit or LENGTH.unit
+    doubt = ""
+    if unit not in quantity.units:
+        units = ", ".join(quantity.units)
+        doubt = f"{names[place]!r} needs one of these units in brackets: {units}"
+    if not chosen and not quantity.is_said_by(words):
+        doubt = f"no column is {quantity}"
+    added = "" if own_unit in quantity.units else f" [{quantity.unit}]"
+    return Match(names[place] + added, place, unit, doubt)
+
+
+def _parts(name: str) -> tuple[str, str]:
+    """A name without its unit, and the unit, in brackets at its end."""
+    found = NAME_AND_UNIT.fullmatch(name)
+    return (found[1], re.sub("[µμ]", "u", found[2])) if found else (name, "")
+
+
+def _is_value(cell: str) -> bool:
+    """Whether a cell is a number, or what stands for one, and so no name."""
+    try:
+        float(cell.replace(",", "."))
+    except ValueError:
+        return bool(FAILED.match(cell))
+    return True
