@@ -66,6 +66,10 @@ class Record:
         columns = (time, block, mode, tangential_load)
         for name, column in zip(COLUMNS, columns, strict=True):
             transitions[name] = column
+            if name in ("block", "mode") and not np.array_equal(
+                transitions[name], column
+            ):
+                raise ValueError(f"{name} must be whole numbers, of which one is not")
         if intervals is None:
             instants = np.concatenate([[0.0], transitions["time"], [duration]])
             intervals = np.diff(instants)
