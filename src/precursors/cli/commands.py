@@ -24,6 +24,7 @@ from precursors.model.chain import (
 )
 from precursors.model.checks import positive
 from precursors.solver.run import LargerRun, Record, Run, RunFileError
+from precursors.solver.run_file import has_checksum
 from precursors.support.checkout import git_state
 from precursors.support.files import write_table
 from precursors.support.spreadsheet import (
@@ -212,6 +213,8 @@ def audit(arguments: Namespace) -> None:
                 f"{path}: a motion of the model, "
                 f"{several(len(run.transitions), 'transition')} in {run.duration:g} s"
             )
+            if not has_checksum(path):
+                tell(f"{path} has no checksum, as it is older: its length is not checked")
         else:
             is_not = "undecided" if report.is_undecided else "not a motion of the model"
             wrong.append(f"{path}: {is_not}: {report.problems[0]}")
