@@ -71,7 +71,7 @@ class Record:
             is_other = transitions[name] != values
             if name in ("block", "mode") and is_other.any():
                 raise ValueError(
-                    f"{name} must be whole numbers, but one is {values[is_other][0]}"
+                    f"{name} must be of type {transitions.dtype[name]}, but one is {values[is_other][0]}"
                 )
         if intervals is None:
             instants = np.concatenate([[0.0], transitions["time"], [duration]])
