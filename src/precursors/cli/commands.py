@@ -215,7 +215,7 @@ def audit(arguments: Namespace) -> None:
             )
             if not has_checksum(path):
                 tell(
-                    f"{path} has no checksum, as it is older: its length is not checked"
+                    f"{path} has no checksum, as it is older: the length of its contact is not checked"
                 )
         else:
             is_not = "undecided" if report.is_undecided else "not a motion of the model"
