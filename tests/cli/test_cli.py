@@ -423,7 +423,10 @@ def test_audit_says_what_is_not_checked_of_an_older_file(cli, run_file, tmp_path
         del file.attrs["checksum"]
     code, out, err = cli("audit", old)
     assert (code, out.startswith(f"{old}: a motion of the model")) == (0, True)
-    assert err == f"{old} has no checksum, as it is older: the length of its contact is not checked\n"
+    assert (
+        err
+        == f"{old} has no checksum, as it is older: the length of its contact is not checked\n"
+    )
 
 
 def test_an_audit_that_meets_its_limit_of_work_is_undecided(cli, run_file, monkeypatch):
