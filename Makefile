@@ -5,9 +5,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
 DEV := .venv/dev
-# A build takes its packages from wheelhouse/ where there is one, and then needs no network.
 LOCK := pyproject.toml --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header -q
-WHEELS := $(if $(wildcard wheelhouse),--no-index --find-links wheelhouse)
 # Python keeps bytecode, whatever the user does elsewhere: every job would compile its imports again.
 unexport PYTHONDONTWRITEBYTECODE
 # Caches of uv and Snakemake, which cannot do without, where the home directory cannot be written.
@@ -15,7 +13,7 @@ ifeq ($(XDG_CACHE_HOME)$(shell test -w "$$HOME" && echo home),)
 export XDG_CACHE_HOME := $(CURDIR)/.snakemake/cache
 endif
 
-TARGETS := all test test-cluster results check report benchmark golden docs bench speed codecheck lock lint wheelhouse clean
+TARGETS := all test test-cluster results check report golden docs bench speed codecheck lock lint clean
 .PHONY: $(TARGETS)
 
 all: results
@@ -40,10 +38,6 @@ check: $(READY)
 # Every figure with its caption, the rule that made it and its time, in one file for a browser.
 report: results
 	$(BIN)/snakemake --report results/report.html --report-stylesheet workflow/report/report.css -- all
-
-# The reference problems of docs/benchmark.md as plain files in one archive, for a release.
-benchmark: $(READY)
-	@$(BIN)/snakemake --quiet rules host -c1 results/benchmark.zip
 
 # What codecheck.yml lists, made again from nothing and compared with tests/golden.
 codecheck: $(READY)
@@ -73,11 +67,6 @@ lock: $(READY)
 	$(BIN)/uv pip compile $(LOCK) --extra workflow --extra proof --extra peers --extra paper --extra build -o requirements.lock
 	$(BIN)/uv pip compile $(LOCK) --all-extras -c requirements.lock -o requirements-dev.lock
 
-# The locked packages for this Python and this kind of machine, to be kept with the sources: 400 MB.
-wheelhouse: $(DEV)
-	$(BIN)/python -m pip download -q --no-deps --no-build-isolation --require-hashes -d wheelhouse.part -r requirements-dev.lock
-	mv wheelhouse.part wheelhouse
-
 clean:
 	rm -rf .venv .snakemake
 	find results -mindepth 1 ! -path results/README.md -delete
@@ -86,8 +75,8 @@ $(READY): requirements.lock
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and f"Python 3.11 or later is needed, and $(PYTHON) is {sys.version.split()[0]}: set PYTHON=")'
 	rm -rf .venv && $(PYTHON) -m venv .venv
 	awk '/^[^ #]/ {wanted = /^uv==/} wanted' requirements.lock > .venv/uv.txt
-	$(BIN)/python -m pip install -q $(WHEELS) --no-deps --require-hashes -r .venv/uv.txt
-	$(BIN)/uv pip sync -q $(WHEELS) -p $(BIN)/python --require-hashes --build-constraints requirements.lock requirements.lock
+	$(BIN)/python -m pip install -q --no-deps --require-hashes -r .venv/uv.txt
+	$(BIN)/uv pip sync -q -p $(BIN)/python --require-hashes --build-constraints requirements.lock requirements.lock
 	$(BIN)/uv pip install -q -p $(BIN)/python --offline --no-deps --no-build-isolation -e .
 	@# Compile what is not in the user's cache, on two cores.
 	$(BIN)/python -c "from precursors import Chain, simulate; simulate(Chain.from_slider(), 0.4).at([0.4])" & \
@@ -99,8 +88,7 @@ $(READY): requirements.lock
 	touch $(READY)
 
 $(DEV): $(READY) requirements-dev.lock
-	@# What only tests and full studies compile.
-	$(BIN)/python -c "from precursors import Chain, LargerChain, audit, simulate; chain = Chain.from_slider(); \
-	  LargerChain(chain, 0.02).simulate(0.1); audit(simulate(chain, 0.4))" & \
-	$(BIN)/uv pip install -q $(WHEELS) -p $(BIN)/python --require-hashes --build-constraints requirements-dev.lock -r requirements-dev.lock && wait
+	@# What only tests compile.
+	$(BIN)/python -c "from precursors import Chain, audit, simulate; audit(simulate(Chain.from_slider(), 0.4))" & \
+	$(BIN)/uv pip install -q -p $(BIN)/python --require-hashes --build-constraints requirements-dev.lock -r requirements-dev.lock && wait
 	touch $(DEV)

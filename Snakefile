@@ -17,10 +17,7 @@ include: "workflow/rules/resolution.smk"  # the number of blocks
 include: "workflow/rules/horizon.smk"  # proofs, and how errors grow
 include: "workflow/rules/models.smk"  # smaller models, and which answers which question
 # Studies on which no claim rests
-include: "workflow/rules/grid.smk"  # mu_sapp over any two values of the chain
-include: "workflow/rules/larger.smk"  # chains with a length
 include: "workflow/rules/mean_load.smk"  # the time mean of F_X
-include: "workflow/rules/benchmark.smk"  # transitions of other solvers, scored
 include: "workflow/rules/failures.smk"  # where methods fail
 include: "workflow/rules/step_sweep.smk"  # counts against the step of a Runge-Kutta method
 include: "workflow/rules/work_precision.smk"  # accuracy against computing time

@@ -87,7 +87,7 @@ Row = dict[str, Any]
 
 
 def main() -> None:
-    """Run the benchmarks, print the table and write it."""
+    """Measure, print the table and write it."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument(
         "--quick", action="store_true", help="a reduced size, to see that it runs"
@@ -116,7 +116,7 @@ def main() -> None:
     )
     rows: list[Row] = []
     for _ in range(arguments.sessions):
-        for benchmark in (
+        for measurement in (
             against_heyoka(measure),
             against_dop853(measure),
             ensemble(measure, arguments.quick),
@@ -124,15 +124,15 @@ def main() -> None:
             in_callbacks(),
             long_chains(measure),
         ):
-            for row in benchmark:
+            for row in measurement:
                 print(
-                    f"{row['benchmark']:9} {row['case']:38} {row['quantity']:46} "
+                    f"{row['measurement']:9} {row['case']:38} {row['quantity']:46} "
                     f"{row['value']:10.4g} {row['unit']}",
                     flush=True,
                 )
                 rows.append(row)
     sessions = pd.DataFrame(rows).groupby(
-        ["benchmark", "case", "quantity", "unit"], sort=False
+        ["measurement", "case", "quantity", "unit"], sort=False
     )["value"]
     medians = sessions.agg(
         value="median", least="min", largest="max", sessions="count"
@@ -345,9 +345,9 @@ def long_chains(measure: Callable[..., Any]) -> Iterable[Row]:
     yield _row("growth", case, f"time of a transition / at N = {SHORT_CHAIN}", "1", cpu)
 
 
-def _row(benchmark: str, case: str, quantity: str, unit: str, value: float) -> Row:
+def _row(measurement: str, case: str, quantity: str, unit: str, value: float) -> Row:
     return {
-        "benchmark": benchmark,
+        "measurement": measurement,
         "case": case,
         "quantity": quantity,
         "unit": unit,

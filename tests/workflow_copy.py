@@ -112,14 +112,8 @@ class Workspace:
         self.edit("config.yaml", "\nfig13: [", f"{scenes}\nfig13: [")
 
     def results(self) -> dict[str, tuple[int, bytes]]:
-        """Time of change and content of every file in results, without Snakemake's
-        records."""
-        everything = (self.path / "results").rglob("*")
-        files = [
-            path
-            for path in everything
-            if path.is_file() and path.parent.name != "records"
-        ]
+        """Time of change and content of every file in results."""
+        files = filter(Path.is_file, (self.path / "results").rglob("*"))
         return {
             str(file.relative_to(self.path)): (
                 file.stat().st_mtime_ns,
@@ -156,16 +150,10 @@ def _run_snakemake(
 
 def copy_workflow(path: Path) -> Workspace:
     path.mkdir()
-    for name in (
-        "Snakefile",
-        "config.yaml",
-        "LICENSE-text",
-        "CITATION.cff",
-        "metadata.yaml",
-    ):
+    for name in ("Snakefile", "config.yaml", "LICENSE-text", "CITATION.cff"):
         shutil.copy2(ROOT / name, path)
     unneeded = shutil.ignore_patterns("__pycache__", "*.png", "results")
-    for name in ("workflow", "src", "paper", "profiles", "benchmarks", "docs"):
+    for name in ("workflow", "src", "paper", "profiles"):
         shutil.copytree(ROOT / name, path / name, ignore=unneeded)
     # Of a job with a message Snakemake prints neither the rule nor the outputs.
     for file in (path / "workflow").rglob("*.smk"):

@@ -8,30 +8,21 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-from maegawa2010.support.installed import check_installed
-
-# As seen from the working directory; `workflow.basedir` would be another workflow's that uses this one as a module.
-ROOT = Path(os.path.relpath(workflow.current_basedir.get_path_or_uri(secret_free=True))).parent
-try:
-    check_installed(ROOT / "src")
-except ValueError as error:
-    raise WorkflowError(str(error)) from None
-
 from maegawa2010 import printed
 from maegawa2010.config import load_config, read_file
 from maegawa2010.paper.inputs import SCENES as PAPERS_SCENES
 from maegawa2010.scenes import (
     is_papers,
-    scene_additions,
     scene_duration,
     scene_label,
     scene_slider,
-    scenes_with,
     scenes_with_theta,
 )
 from maegawa2010.support.digest import digest_code
 from precursors.model.chain import parse_theta
 
+# As seen from the working directory; `workflow.basedir` would be another workflow's that uses this one as a module.
+ROOT = Path(os.path.relpath(workflow.current_basedir.get_path_or_uri(secret_free=True))).parent
 PAPERS = ROOT / "src/maegawa2010"
 PROOFS = ROOT / "src/precursors/benchmark/certificates"  # committed
 COMMITTED = ROOT / "paper/tables"  # of long studies of the paper's slider
@@ -55,18 +46,10 @@ except ValueError as error:
     raise WorkflowError(str(error)) from None
 if not os.access("results" if os.path.exists("results") else ".", os.W_OK | os.X_OK):
     raise WorkflowError("results must be a directory that can be written to")
-if not workflow.modifier.skip_configfile:
-    # Snakemake's records of the jobs lie beside the results, so that both are copied together: what fits the code of
-    # another clone is not made again there.
-    os.makedirs("results/records", exist_ok=True)
-    os.makedirs(".snakemake", exist_ok=True)
-    if not os.path.lexists(".snakemake/metadata"):
-        os.symlink("../results/records", ".snakemake/metadata")
 if os.path.exists(sys.executable):  # and not yet in quotes
     sys.executable = shlex.quote(sys.executable)  # Snakemake's commands have it as it is
 
-SCENES = scenes_with(config, "run")
-ASKED = scenes_with(config, "answers")
+SCENES = list(config["scenes"])
 FIG13 = config["fig13"]
 MORE_FORMATS = [name for name in config["figure_formats"] if name != "svg"]
 SLIDERS = {scene: scene_slider(config, scene) for scene in FIG13}

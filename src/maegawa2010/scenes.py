@@ -5,31 +5,15 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from precursors.larger.chain import ADDITIONS
 from precursors.model.chain import SLIDER, parse_theta, theta_from_load_cells
 from precursors.support.spreadsheet import read_weights
 
 Config = Mapping[str, Any]
 
 
-def scenes_with(config: Config, output: str) -> list[str]:
-    """Names of the scenes that have a "run", or "answers" because they name a model, in
-    order."""
-    return [
-        name
-        for name, scene in config["scenes"].items()
-        if ("model" in scene) == (output == "answers")
-    ]
-
-
 def scenes_with_theta(config: Config) -> list[str]:
-    """Names of the scenes that have a run and whose normal load changes linearly along
-    the slider."""
-    return [
-        name
-        for name in scenes_with(config, "run")
-        if "weights" not in config["scenes"][name]
-    ]
+    """Names of the scenes whose normal load changes linearly along the slider."""
+    return [name for name, scene in config["scenes"].items() if "weights" not in scene]
 
 
 def scene_duration(config: Config, name: str) -> float:
@@ -73,12 +57,6 @@ def scene_slider(config: Config, name: str) -> dict[str, Any]:
         "normal_load": math.fsum(loads),
         "theta": math.nan,
     }
-
-
-def scene_additions(config: Config, name: str) -> dict[str, float]:
-    """Additions of a scene to the paper's chain, keys of `ADDITIONS`."""
-    scene = config["scenes"][name]
-    return {key: scene[key] for key in ADDITIONS if key in scene}
 
 
 def scene_as_written(config: Config, name: str) -> dict[str, Any]:

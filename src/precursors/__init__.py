@@ -23,11 +23,10 @@ if TYPE_CHECKING:
     from precursors.analysis.slips import find_precursors, find_slips, slip_table
     from precursors.analysis.summary import apparent_friction, summarise
     from precursors.figures.run import plot
-    from precursors.larger.chain import LargerChain
     from precursors.model.chain import Chain
     from precursors.proof import certify
     from precursors.solver.many import simulate_many
-    from precursors.solver.run import LargerRun, Record, Run, RunFileError
+    from precursors.solver.run import Record, Run, RunFileError
     from precursors.solver.simulate import TransitionLimitError, simulate
 
     __version__: str
@@ -35,8 +34,6 @@ if TYPE_CHECKING:
 # Written out for type checkers and editors.
 __all__ = [
     "Chain",
-    "LargerChain",
-    "LargerRun",
     "Record",
     "Run",
     "RunFileError",
@@ -57,8 +54,6 @@ __all__ = [
 # must not load the compiler.
 _MODULES = {
     "Chain": "model.chain",
-    "LargerChain": "larger.chain",
-    "LargerRun": "solver.run",
     "Record": "solver.run",
     "Run": "solver.run",
     "RunFileError": "solver.run",

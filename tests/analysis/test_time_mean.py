@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from precursors import Chain, LargerChain, simulate
+from precursors import Chain, simulate
 from precursors.analysis.load_curve import TOLERANCE_N
-from precursors.analysis.mean_load import backward_slip, mean_coefficient, mean_load
+from precursors.analysis.mean_load import backward_slip, mean_load
 
 CURVE = TOLERANCE_N / 400.0  # of the mean, over F_Z
 
@@ -30,10 +30,3 @@ def test_backward_slip_is_the_way_back_of_each_block():
     moving = set(run.transitions["block"][backward] - 1)
     assert set(np.flatnonzero(slid > 0.0)) == moving
     assert (slid >= 0.0).all()
-
-
-def test_weakening_friction_and_viscosity_only_raise_the_mean():
-    larger = LargerChain(Chain.from_slider(drive_velocity=1e-3), 0.01, 1e-4)
-    run = larger.simulate(3.0)
-    mean = mean_coefficient(run, 0.5, run.duration)
-    assert run.chain.mu_k < mean < run.chain.mu_k + 0.02

@@ -90,7 +90,7 @@ def jobs(node: SlurmNode) -> list[list[str]]:
 def test_a_cancelled_job_is_made_up_by_the_next_call_and_all_chunks_are_local_ones(
     tmp_path,
 ):
-    left_out = shutil.ignore_patterns("results", ".*", "tests", "wheelhouse")
+    left_out = shutil.ignore_patterns("results", ".*", "tests")
     shutil.copytree(ROOT, tmp_path / "source", ignore=left_out)
     (tmp_path / "small.yaml").write_text(json.dumps(SMALL), encoding="utf-8")
     here = tmp_path / "here"

@@ -2,9 +2,8 @@
 
 import numpy as np
 import pandas as pd
-from places import GOLDEN, committed
+from places import GOLDEN
 
-from maegawa2010.studies.larger import figure as larger
 from precursors.figures import precursor_lengths, scene, style
 
 # As a journal wants it: one column, large letters, a font whose symbols differ.
@@ -102,5 +101,4 @@ PICTURES = {
     "scene_partial": partial_scene,
     "scene_calm": lambda: draw_scene(slips().iloc[:0], look=style.Look(85.0)),
     "precursor_lengths_others": (other_lengths, NARROW),
-    "larger": lambda: larger.draw(committed("larger_settled_full")),
 }

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from precursors import Chain, LargerChain, plot, simulate
+from precursors import Chain, Record, plot, simulate
 
 
 def words_of(axes):
@@ -40,6 +40,10 @@ def test_any_event_is_shown_that_is_over():
         ValueError, match=r"must be 1 to 16, the slips that are over, but are \[2, 17\]"
     ):
         plot(run, "push", events=[2, 17])
-    larger = LargerChain(Chain.from_slider(), relaxation_time=1e-4).simulate(1e-3)
-    with pytest.raises(ValueError, match="a push needs a run of the paper's chain"):
-        plot(larger, "push")
+    columns = [run.transitions[name] for name in run.transitions.dtype.names]
+    made = Record.from_columns(run.chain, run.duration, *columns)
+    for figure in ("load", "push", "wave"):
+        with pytest.raises(
+            ValueError, match=f"a {figure} needs a Run, but this is a R"
+        ):
+            plot(made, figure)

@@ -3,26 +3,19 @@ what changed."""
 
 import shutil
 import sys
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+from unittest import mock
 
+import codecheck
 from explorer import example
-from golden import benchmark_page
-from golden.kept import SMALL, pictures, write_picture
-from places import GOLDEN, RESULTS, ROOT, made
+from places import GOLDEN, ROOT
 
+from precursors.figures import style
 from precursors.support.files import write_whole
 
-PAPERS_SCENES = ("fig10", "fig11", "fig12")
-TABLES = (
-    *(f"{scene}_slips.csv" for scene in PAPERS_SCENES),
-    "reproduction.csv",
-    "eq15.csv",
-    "claims.csv",
-    "open_points.csv",
-)
-FIGURES = tuple(
-    f"{figure}.png"
-    for figure in ("fig09", *PAPERS_SCENES, "fig13", "hero", "push", "speed")
-)
+SMALL = GOLDEN / "small"
 # What is read without a build.
 BUILT = {
     "explorer.html": "docs/explorer.html",
@@ -31,18 +24,32 @@ BUILT = {
 }
 
 
+def pictures() -> dict[str, Any]:
+    """All small pictures by name: a test file has those of its subject in PICTURES."""
+    drawn: dict[str, Any] = {}
+    for file in sorted((ROOT / "tests").glob("*/test_*.py")):
+        if "\nPICTURES = {" in file.read_text(encoding="utf-8"):
+            module = import_module(f"{file.parent.name}.{file.stem}")
+            drawn |= module.PICTURES
+    return drawn
+
+
+def write_picture(path: Path, how: Any) -> None:
+    """Write a picture of few pixels; `how` draws it, or draws it with a look."""
+    draw, look = how if isinstance(how, tuple) else (how, style.LOOK)
+    with mock.patch.object(style, "PNG_DPI", 60):
+        style.save(draw(), path, look)
+
+
 def main() -> None:
     """Copy golden files from results/, and make the small ones."""
-    for kind, names in (("tables", TABLES), ("figures", FIGURES)):
-        for name in names:
-            shutil.copyfile(RESULTS / kind / name, GOLDEN / name)
-    shutil.copyfile(RESULTS / "figures/wave.svg", GOLDEN / "wave.svg")
-    benchmark_page.write(made("benchmark"))
+    for file in codecheck.manifest(ROOT):
+        shutil.copy(ROOT / file, GOLDEN)
     for name, how in pictures().items():
         write_picture(SMALL / f"{name}.png", how)
     write_whole(example.PICTURE, example.picture())
-    for name, kept in BUILT.items():
-        shutil.copyfile(RESULTS / name, ROOT / kept)
+    for name, committed in BUILT.items():
+        shutil.copyfile(RESULTS / name, ROOT / committed)
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ from settings import CONFIG as PAPERS
 from settings import STUDIES
 
 from maegawa2010.config import check_config, check_sections, read_file, read_numbers
-from maegawa2010.scenes import scene_slider, scenes_with
+from maegawa2010.scenes import scene_slider
 from precursors.model.chain import Chain
 
 SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
@@ -81,11 +81,6 @@ WRONG = [
         ["fig13 holds 'fig99'", "fig10, fig11, fig12"],
     ),
     ("figure_formats", ["doc"], ["figure_formats[0]: 'doc' is not one of"]),
-    (
-        "scenes.steep",
-        STEEP | {"viscosity": 1.0, "model": "statics"},
-        ["must not have what a larger chain adds beside model"],
-    ),
     ("noise.sede", 1, ["noise holds 'sede', but must hold names of seed, runs"]),
     ("noise", [1], ["noise: [1] is not of type 'object'"]),
     ("noise.runs", 0, ["noise.runs: 0 is less than the minimum of 1"]),
@@ -136,7 +131,6 @@ def refused(config):
 
 def test_the_papers_configuration_is_accepted():
     check_config(PAPERS, SCHEMA)
-    assert scenes_with(PAPERS, "run") == ["fig10", "fig11", "fig12"]
     assert [
         Chain.from_slider(**scene_slider(PAPERS, name)).normal_load
         for name in PAPERS["scenes"]
@@ -148,13 +142,6 @@ def test_the_papers_configuration_is_accepted():
     ]
     for theta in (-1, 0.5, "5/6"):
         check_config(changed("scenes.steep", STEEP | {"theta": theta}), SCHEMA)
-
-
-def test_a_scene_that_names_a_model_is_answered_and_not_run():
-    config = changed("scenes.rough", STEEP | {"model": "quasistatic"})
-    config["scenes"]["quick"] = STEEP | {"model": "chain"}
-    check_config(config, SCHEMA)
-    assert scenes_with(config, "answers") == ["rough", "quick"]
 
 
 @pytest.mark.parametrize(("key", "value", "words"), WRONG)

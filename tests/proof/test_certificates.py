@@ -158,22 +158,12 @@ def test_theta_of_a_scene_is_not_rounded():
         assert scene_exact_chain(config, name) == SLIDER(theta="5/6")
 
 
-def test_a_scene_that_is_not_the_papers_chain_is_not_proved_as_if_it_were():
-    slider = {"n_blocks": 3, "normal_load": 400.0, "length": 0.1}
-    plain = {"theta": "5/6", "push_height": 0.0}
-    config = {"chain": slider, "scenes": {"plain": plain}}
-    assert scene_exact_chain(config, "plain") == SLIDER(n_blocks=3, theta="5/6")
-    for changes in (
-        {"weights": [30.0, 40.0, 50.0]},
-        {"viscosity": 1.0},
-        {"push_height": 0.005},
+def test_a_scene_with_measured_loads_is_not_proved():
+    config = {"chain": {}, "scenes": {"measured": {"weights": [30.0, 40.0, 50.0]}}}
+    with pytest.raises(
+        ValueError, match=r"^scenes\.measured must have .* has weights$"
     ):
-        config["scenes"]["other"] = plain | changes
-        [name] = changes
-        with pytest.raises(
-            ValueError, match=f"^scenes.other must be the paper's chain .*has {name}$"
-        ):
-            scene_exact_chain(config, "other")
+        scene_exact_chain(config, "measured")
 
 
 def test_one_block_has_the_whole_load_whatever_theta_is():

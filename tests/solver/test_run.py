@@ -12,7 +12,7 @@ import pytest
 from chains import SLIDER, first_transitions
 from random_chains import mild_chain
 
-from precursors import LargerRun, Record, Run, RunFileError, audit, simulate
+from precursors import Record, Run, RunFileError, audit, simulate
 from precursors.solver.record import arrays_of
 from precursors.solver.run_file import SCALARS, WITHOUT_CHECKSUM
 
@@ -267,18 +267,13 @@ def test_a_dataset_that_is_longer_than_its_file_is_refused(path):
         Run.load(path)
 
 
-def test_a_larger_run_is_read_by_the_name_of_its_numbers_in_older_files(run, path):
-    columns = [run.transitions[name] for name in run.transitions.dtype.names]
-    points = np.zeros((2, 2))
-    larger = LargerRun.from_columns(
-        run.chain, run.duration, *columns, numbers={"step": 1.0}, load_points=points
-    )
-    larger.save(path)
-    without_checksum(path)
+def test_the_file_of_a_larger_chain_is_refused_with_what_reads_it(run, path):
     with h5py.File(path, "r+") as file:
-        file.attrs["larger"] = file.attrs["numbers"]
-        del file.attrs["numbers"]
-    assert Record.load(path).numbers == {"step": 1.0}
+        del file["states"]
+        file["load_points"] = np.zeros((2, 2))  # which only such a file has
+    words = r"^\S+run\.h5 is a run of a larger chain, .* git checkout 88883c9 reads it$"
+    with pytest.raises(RunFileError, match=words):
+        Record.load(path)
 
 
 def test_a_missing_file_is_named(tmp_path):

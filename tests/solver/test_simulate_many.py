@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from chains import SLIDER
 
-from precursors import Chain, LargerChain, Run, simulate, simulate_many
+from precursors import Chain, Run, simulate, simulate_many
 from precursors.solver import batch as solver
 
 ROUNDING = 1e-12  # of the largest position or velocity
@@ -119,10 +119,3 @@ def test_chains_may_come_from_a_generator_and_what_is_no_chain_is_refused():
         TypeError, match=r"^what is simulated must be a Chain, but is i"
     ):
         simulate_many([chain, 5])
-
-
-def test_a_larger_chain_is_told_to_run_itself():
-    larger = LargerChain(SLIDER(), weakening_velocity=0.02)
-    for call in (lambda: simulate(larger), lambda: simulate_many([SLIDER(), larger])):
-        with pytest.raises(TypeError, match="LargerChain, which has its own simulate"):
-            call()

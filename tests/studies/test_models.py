@@ -4,11 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import yaml
-from places import ROOT
 
 from maegawa2010.studies.models import quasistatic
-from maegawa2010.studies.models.models import MODELS, UNITS, scene_answers
+from maegawa2010.studies.models.models import MODELS
 from maegawa2010.studies.models.quasistatic import (
     ENERGY_CONSERVED,
     OVERDAMPED,
@@ -195,23 +193,6 @@ def test_a_limit_that_is_met_is_said(monkeypatch):
     monkeypatch.setattr(quasistatic, "MAX_STAGES", 0)
     with pytest.raises(RuntimeError, match="event 1 does not come to rest"):
         quasistatic_slips(SLIDER())
-
-
-def test_the_schema_of_the_configuration_knows_the_names_of_the_models():
-    schema = yaml.safe_load(
-        (ROOT / "workflow/schemas/config.schema.yaml").read_text(encoding="utf-8")
-    )
-    scene = schema["properties"]["scenes"]["additionalProperties"]
-    assert scene["properties"]["model"]["enum"] == list(MODELS)
-    assert all(set(model(SLIDER())) <= set(UNITS) for model in MODELS.values())
-
-
-def test_answers_are_a_table_with_a_row_for_each_number():
-    table = scene_answers({"theta": "5/6"}, "quasistatic").set_index("quantity")
-    assert table.loc["events_counted", "value"] == 14.0
-    assert list(table.loc["front_loads", "block"]) == list(range(1, 11))
-    assert table.loc[["first_load", "mu_sapp"], "block"].isna().all()
-    assert set(table["unit"]) == {"1", "N"}
 
 
 def test_a_run_without_a_global_slip_has_no_answer_to_what_asks_for_it(

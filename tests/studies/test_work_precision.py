@@ -2,6 +2,7 @@
 
 import math
 
+import pandas as pd
 import pytest
 from benchmark.made_up import (
     CHAIN,
@@ -12,6 +13,7 @@ from benchmark.made_up import (
 
 from maegawa2010.methods import METHODS, ROWS, Method, Result
 from maegawa2010.studies.work_precision import tables
+from maegawa2010.studies.work_precision.figure import fastest_as_accurate
 from maegawa2010.studies.work_precision.tables import (
     SHORTEST,
     charted_values,
@@ -120,3 +122,33 @@ def test_methods_are_measured_to_the_first_global_slip(monkeypatch):
     assert exact["transitions_right"] == exact["transitions_true"]
     assert 0 < exact["transitions_true"] < len(certificate.transitions)
     assert 0 < exact["time_error_s"] < fine["time_error_s"] < coarse["time_error_s"]
+
+
+# Method, time [s], error of a time [s], whether it found every transition.
+SETTINGS = [
+    ("exact", 1.0, 4e-16, True),
+    ("heyoka", 11.0, 2e-14, True),
+    ("heyoka", 12.0, 1e-15, True),
+    ("heyoka", 13.0, 4e-15, True),
+    ("heyoka", 2.0, 1e-16, False),
+]
+
+
+@pytest.mark.parametrize(
+    ("more", "seconds"),
+    [
+        ([], 12.0),  # none is as accurate as the exact solver: the most accurate
+        ([15.0], 15.0),
+        ([16.0, 15.0, 17.0], 15.0),  # all three are: the fastest of them
+    ],
+)
+def test_the_fastest_setting_as_accurate_as_the_exact_is_compared(more, seconds):
+    # The slower, the more accurate.
+    close = [("heyoka", time, 4e-16 - 1e-18 * time, True) for time in more]
+    columns = ["method", "seconds", "time_error_s", "is_right"]
+    table = pd.DataFrame([*SETTINGS, *close], columns=columns)
+    right = table.pop("is_right").map({True: 216, False: 215})
+    table = table.assign(
+        transitions_right=right, transitions_found=216, transitions_true=216
+    )
+    assert fastest_as_accurate(table, "heyoka")["seconds"] == seconds

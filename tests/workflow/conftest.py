@@ -6,16 +6,12 @@ from pathlib import Path
 import pytest
 from workflow_copy import Outcome, Workspace, copy_workflow
 
-# Scenes beside the paper's: one that is run, and one that a smaller model answers.
-MORE_SCENES = """\
+# A scene beside the paper's.
+MORE_SCENE = """\
   steep:
     title: nearly all of the load at the leading edge
     theta: "9/10"
     duration: 0.5
-  quick:
-    title: what a smaller model says
-    theta: "9/10"
-    model: front_law
 """
 
 
@@ -28,7 +24,7 @@ def workspace(tmp_path: Path) -> Workspace:
 @pytest.fixture(scope="session")
 def _finished(tmp_path_factory: pytest.TempPathFactory) -> Workspace:
     workspace = copy_workflow(tmp_path_factory.mktemp("finished") / "copy")
-    workspace.add_scenes(MORE_SCENES)
+    workspace.add_scenes(MORE_SCENE)
     workspace.edit("workflow/studies.yaml", "chunks: 1", "chunks: 2")
     outcome = workspace.pretend("all")
     assert outcome.code == 0, outcome.text
@@ -45,7 +41,7 @@ def untouched(tmp_path_factory: pytest.TempPathFactory) -> tuple[Workspace, Outc
 
 @pytest.fixture
 def finished(_finished: Workspace, tmp_path: Path) -> Workspace:
-    """A copy of the workflow with MORE_SCENES, run to the end with stand-ins for what
+    """A copy of the workflow with MORE_SCENE, run to the end with stand-ins for what
     the scripts compute."""
-    shutil.copytree(_finished.path, tmp_path / "copy", symlinks=True)
+    shutil.copytree(_finished.path, tmp_path / "copy")
     return Workspace(tmp_path / "copy")

@@ -75,7 +75,7 @@ rule write_paper:
         shown=lambda wildcards: results_shown(PAPER_SOURCE / f"{wildcards.document}.typ"),
         main=PAPER_SOURCE / "{document}.typ",
         source=sorted(path for path in PAPER_SOURCE.rglob("*.*") if path.suffix != ".pdf"),
-        about=[ROOT / "CITATION.cff", ROOT / "metadata.yaml"],
+        about=ROOT / "CITATION.cff",
     output:
         "results/{document}.pdf",
     log:

@@ -14,7 +14,6 @@ rule simulate_scene:
     params:
         slider=lambda wildcards: scene_slider(config, wildcards.scene),
         duration=lambda wildcards: scene_duration(config, wildcards.scene),
-        additions=lambda wildcards: scene_additions(config, wildcards.scene),
         code=digest("simulate_scene"),
     message:
         "{wildcards.scene}: finding every transition"

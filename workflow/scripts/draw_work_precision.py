@@ -12,6 +12,6 @@ with job() as snakemake:
     title = "what accuracy costs, measured by this build"
     save(draw(measured), snakemake.output.measured, title)
     for path in snakemake.input.published:
-        published = draw(read_table(path))
+        published = draw(read_table(path), compared="heyoka")
         title = "what accuracy costs, as published for the paper's slider"
         save(published, snakemake.output.published, title)

@@ -1,22 +1,13 @@
 """Shared by the scripts that run a chunk of a study of many runs."""
 
-from collections.abc import Callable
-
-import pandas as pd
-
 from maegawa2010.studies.members import Study
 from maegawa2010.studies.runs import run_members
 from precursors.support.files import write_table
 
 
-def run_chunk(
-    study: Study,
-    chunk: str,
-    path: str,
-    run: Callable[[Study], pd.DataFrame] = run_members,
-) -> None:
+def run_chunk(study: Study, chunk: str, path: str) -> None:
     """Run one chunk of a study, "1of4" to "4of4": every n-th member, a row each with
     what its run gave."""
     i, n = map(int, chunk.split("of"))
-    found = run(study.chunk(i, n))
+    found = run_members(study.chunk(i, n))
     write_table(found.rename_axis("member").reset_index(), path)

@@ -12,7 +12,6 @@ from job import job
 from precursors.analysis.load_curve import load_trace
 from precursors.analysis.slips import slip_table
 from precursors.model.chain import Chain
-from precursors.solver.run import LargerRun, Run
 from precursors.solver.simulate import TransitionLimitError, simulate
 from precursors.support.files import write_table
 
@@ -20,16 +19,8 @@ with job() as snakemake:
     params = snakemake.params
     output = snakemake.output
     chain = Chain.from_slider(**params.slider)
-    run: Run | LargerRun
     try:
-        if any(params.additions.values()):
-            from precursors.larger.chain import LargerChain
-            from precursors.larger.simulate import MAX_STEPS
-
-            larger = LargerChain(chain, **params.additions)
-            run = larger.simulate(params.duration, max_steps=MAX_STEPS)
-        else:
-            run = simulate(chain, duration=params.duration)
+        run = simulate(chain, duration=params.duration)
     except TransitionLimitError as error:
         error.run.save(Path(output.run).with_suffix(".unfinished.h5"))
         raise

@@ -33,8 +33,7 @@ def main(
     with tempfile.TemporaryDirectory() as directory:
         root = Path(directory)
         shutil.copytree(main_file.parent, root / "paper")
-        for about in ("CITATION.cff", "metadata.yaml"):
-            shutil.copyfile(main_file.parents[1] / about, root / about)
+        shutil.copy(main_file.parents[1] / "CITATION.cff", root)
         for path in results:
             (root / path).parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(path, root / path)

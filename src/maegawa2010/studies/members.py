@@ -3,7 +3,7 @@ in common."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Any
@@ -18,18 +18,11 @@ from maegawa2010.support.run_statistics import (
     median_difference,
     nine_tenths,
 )
-from precursors.model.chain import SLIDER, Chain, FloatArray
+from precursors.model.chain import SLIDER, Chain
 
 # Columns that the table of a study does not have where they are the same for all
 # members.
 LEFT_OUT = {*SLIDER, "duration"} - {"theta", "n_blocks"}
-# Normal load at a place x from 0 (trailing edge) to 1 (leading edge), but for a factor.
-LOADINGS: dict[str, Callable[[FloatArray], FloatArray]] = {
-    "middle": lambda x: 0.2 + x * (1 - x),
-    "edges": lambda x: 0.2 + (2 * x - 1) ** 2,
-    "falling": lambda x: np.exp(-2 * x),
-    "rising": lambda x: np.exp(2 * x),
-}
 CHAIN = ["scene", "theta", "n_blocks"]  # columns that name it
 # Two numbers are the same if they differ by no more than this: friction coefficients by
 # a unit of the last digit of the paper's 0.49, times by what can be read from the axis
@@ -50,9 +43,8 @@ class Study:
     ----------
     members : DataFrame
         One row per run. Its columns are arguments of `Chain.from_slider`; duration, the
-        time limit of the run [s]; loading, a key of `LOADINGS`; load_noise (see
-        `chain_of`) with group and draw, the numbers of the random stream. All other
-        columns are labels.
+        time limit of the run [s]; load_noise (see `chain_of`) with group and draw, the
+        numbers of the random stream. All other columns are labels.
     seed : int
         Seed of all random numbers.
     """
@@ -87,22 +79,12 @@ def chain_of(member: Mapping[Any, Any], seed: int = 0) -> Chain:
     chain = Chain.from_slider(
         **{name: member[name] for name in SLIDER if name in member}
     )
-    chain = loaded(chain, member.get("loading", "linear"))
     size = member.get("load_noise", 0.0)
     if size == 0.0:
         return chain
     stream = np.random.SeedSequence(seed, spawn_key=(member["group"], member["draw"]))
     change = size * np.random.default_rng(stream).uniform(-1, 1, chain.n_blocks)
     return replace(chain, weights=chain.weights * (1 + change))
-
-
-def loaded(chain: Chain, loading: str) -> Chain:
-    """The chain with the same total load in another shape, a key of LOADINGS; "linear"
-    is Eq. 7 as it is."""
-    if loading == "linear":
-        return chain
-    weights = LOADINGS[loading](np.linspace(0.0, 1.0, chain.n_blocks))
-    return replace(chain, weights=weights / weights.sum() * chain.normal_load)
 
 
 def gather(chunks: Iterable[pd.DataFrame]) -> pd.DataFrame:
@@ -119,11 +101,7 @@ def gather(chunks: Iterable[pd.DataFrame]) -> pd.DataFrame:
     )
     if (together["member"] != together.index).any():
         raise ValueError("the chunks are not all members of their study, each once")
-    return varied(together.drop(columns="member"))
-
-
-def varied(table: pd.DataFrame) -> pd.DataFrame:
-    """A table without the columns of `LEFT_OUT` that are the same for all rows."""
+    table = together.drop(columns="member")
     constant = [name for name in LEFT_OUT & set(table) if len(set(table[name])) == 1]
     return table.drop(columns=constant)
 

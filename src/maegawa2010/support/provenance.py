@@ -25,10 +25,8 @@ SOURCES = (
 # In the directory of the results, but not results.
 NOT_RESULTS = (
     "README.md",
-    "benchmarks",
     "logs",
     "provenance.json",
-    "records",
     "report.html",
 )
 

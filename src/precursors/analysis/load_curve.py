@@ -7,7 +7,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from precursors.model.chain import FloatArray
-from precursors.solver.run import LargerRun, Record, Run
+from precursors.solver.run import Record, Run
 
 # A fiftieth of a pixel where a slip of 1 N fills 200 pixels.
 TOLERANCE_N = 1e-4
@@ -28,10 +28,8 @@ def load_curve(run: Record) -> tuple[FloatArray, FloatArray]:
     through both loads and slopes stands for the curve. It leaves the chord by no more
     than a quarter of the interval times the larger difference between the chord's slope
     and another. A run with more transitions or slides than some `MOST_POINTS` show is
-    drawn as it looks. A larger chain's run has its points already.
+    drawn as it looks.
     """
-    if isinstance(run, LargerRun):
-        return run.load_points[:, 0], run.load_points[:, 1]
     if not isinstance(run, Run):
         raise TypeError(f"a load curve needs a Run, but this is {type(run).__name__}")
     of_first = run.transitions[run.transitions["block"] == 1]

@@ -9,7 +9,7 @@ far again as it slid backward, b_i. So in every run with Coulomb friction
 
 The first change stays bounded while strains do, and b_i >= 0: over a long time the mean
 is mu_k F_Z for every loading, number of blocks and drive, or more if blocks slide
-backward. It is at least mu_k F_Z with dashpots, and with any friction not below mu_k.
+backward.
 """
 
 from typing import NamedTuple
@@ -18,7 +18,7 @@ import numpy as np
 
 from precursors.analysis.load_curve import load_curve
 from precursors.model.chain import FloatArray
-from precursors.solver.run import Record, Run
+from precursors.solver.run import Run
 
 
 class MeanLoad(NamedTuple):
@@ -45,7 +45,7 @@ def mean_load(run: Run, start: float, end: float) -> MeanLoad:
     )
 
 
-def mean_coefficient(run: Record, start: float, end: float) -> float:
+def mean_coefficient(run: Run, start: float, end: float) -> float:
     """Mean of F_X/F_Z from `start` to `end` [s]; F_X is right to `TOLERANCE_N`."""
     times, loads = load_curve(run)
     inside = times[(times > start) & (times < end)]

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from precursors.cli import Refused
-from precursors.cli.options import DATA, LARGER, MEASURED, RUN, SLIDER_OPTIONS
+from precursors.cli.options import DATA, MEASURED, RUN, SLIDER_OPTIONS
 from precursors.model.chain import (
     CELL_SPACING,
     SLIDER,
@@ -23,7 +23,7 @@ from precursors.model.chain import (
     theta_from_load_cells,
 )
 from precursors.model.checks import positive
-from precursors.solver.run import LargerRun, Record, Run, RunFileError
+from precursors.solver.run import Record, Run, RunFileError
 from precursors.solver.run_file import has_checksum
 from precursors.support.checkout import built_state, git_state
 from precursors.support.files import write_table
@@ -72,9 +72,6 @@ ENDS_EARLY = (
 LEAST_OVERLAP = 0.1
 # A run with more transitions up to the first global slip takes seconds to repeat.
 MOST_REPEATED = 50_000
-# Of an accurate run of a larger chain: changes by half the step, the energy that lacks
-# over the work of the drive.
-MOST_WRONG = {"halved_load_N": 0.5, "halved_events": 0, "energy_error": 1e-6}
 
 
 def simulate(arguments: Namespace) -> None:
@@ -88,7 +85,6 @@ def simulate(arguments: Namespace) -> None:
         "duration_s": run.duration,
         **{name: found[name] for name in SHOWN},
     }
-    values |= numbers_of_larger(run)
     advice = "--output RUN.h5 saves the run; precursors plot RUN.h5 draws it"
     if arguments.output is not None:
         run.save(arguments.output)
@@ -225,7 +221,7 @@ def audit(arguments: Namespace) -> None:
 
 
 def score(arguments: Namespace) -> None:
-    """Score a result file on a reference problem."""
+    """Score a result file on a proved problem."""
     from precursors.benchmark.score import score
 
     values = score(arguments.file, arguments.problem, arguments.ties)
@@ -254,7 +250,7 @@ def run_of(arguments: Namespace) -> Record:
     """Read the run file, or run the chain of the options."""
     if arguments.file is None:
         return run_of_options(arguments)
-    if given(arguments, (*MEASURED, *SLIDER_OPTIONS, *LARGER, *RUN)):
+    if given(arguments, (*MEASURED, *SLIDER_OPTIONS, *RUN)):
         raise ValueError(
             f"{arguments.file}: a run file cannot be combined with options of a chain"
         )
@@ -264,7 +260,7 @@ def run_of(arguments: Namespace) -> Record:
         raise Refused(str(error)) from error
 
 
-def run_of_options(arguments: Namespace) -> Record:
+def run_of_options(arguments: Namespace) -> Run:
     """Run the chain of the options."""
     from numba.core import event
 
@@ -282,14 +278,8 @@ def run_of_options(arguments: Namespace) -> Record:
             f"{source}: {several(chain.n_blocks, 'block')}, {loads.min():g} to {loads.max():g} N, "
             f"F_Z = {chain.normal_load:g} N"
         )
-    added = given(arguments, LARGER)
-    how = given(arguments, RUN)
     try:
-        if not any(added.values()):
-            return simulate(chain, **how)
-        from precursors.larger.chain import LargerChain
-
-        return LargerChain(chain, **added).simulate(**how)
+        return simulate(chain, **given(arguments, RUN))
     except TransitionLimitError as error:
         if arguments.command != "simulate" or arguments.output is None:
             raise Refused(str(error)) from error
@@ -347,36 +337,14 @@ def tell(line: str) -> None:
     print(line, file=sys.stderr)
 
 
-def numbers_of_larger(run: Record) -> dict[str, Any]:
-    """Of a larger chain, its numbers, the accuracy of the run, and its settled
-    coefficient by the law and in the run; a line says why not."""
-    if not isinstance(run, LargerRun):
-        return {}
-    from precursors.larger.settled import beside_law
-
-    try:
-        return run.numbers | beside_law(run)
-    except ValueError as error:
-        tell(str(error))
-        return run.numbers
-
-
 def tell_accuracy(run: Record, first_global_slip: float) -> None:
-    """Say if a light block decides what events are, if steps are too long, or if
-    roundings decide the first global slip [s]."""
+    """Say if a light block decides what events are, or if roundings decide the first
+    global slip [s]."""
     from precursors.analysis.events import told_of_light_blocks
     from precursors.analysis.horizon import predicted_errors
 
     if words := told_of_light_blocks(run):
         tell(words)
-    larger = run.numbers if isinstance(run, LargerRun) else {}
-    wrong = [
-        f"{name} = {larger[name]:.3g}"
-        for name, most in MOST_WRONG.items()
-        if name in larger and not abs(larger[name]) <= most
-    ]
-    if wrong:
-        tell(f"this run is not accurate: {', '.join(wrong)}")
     until = run.transitions[run.transitions["time"] <= first_global_slip]
     if not isinstance(run, Run) or not 0 < len(until) <= MOST_REPEATED:
         return

@@ -53,13 +53,6 @@ CHAIN = {
     "cross_section": "cross section S [m^2]",
     "length": "length L of the contact [m]",
 }
-# Fields of `LargerChain`, what such a chain adds to the paper's.
-LARGER = {
-    "weakening_velocity": "velocity v_c over which friction falls to mu_k [m/s]",
-    "relaxation_time": "relaxation time t_v of the material [s]",
-    "viscosity": "viscosity of the dashpots between neighbours [N s/m], instead of t_v",
-    "push_height": "height of the push above the interface [m]",
-}
 RUN = ("duration", "until", "max_transitions")
 # Of measured loads, and of measured values drawn over a run.
 MEASURED = ("weights", "profile", "load_cells", "cell_spacing")
@@ -211,10 +204,6 @@ def _add_chain(command: Parser) -> None:
     )
     add("--cell-spacing", type=_number, help=f"between them [m] ({CELL_SPACING:g})")
     _add_numbers(add, {name: f"{CHAIN[name]} ({SLIDER[name]:g})" for name in CHAIN})
-    add = command.add_argument_group(
-        "a larger chain", "each adds to the paper's chain; 0 by default"
-    ).add_argument
-    _add_numbers(add, LARGER)
     add = command.add_argument_group(
         "the run", "from rest, with every spring at its natural length"
     ).add_argument

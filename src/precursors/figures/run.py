@@ -49,8 +49,8 @@ def plot(
 
     Parameters
     ----------
-    run : Run or LargerRun
-        The run, also of a larger chain.
+    run : Run
+        The run; of a `Record`, only the lengths are drawn.
     figure : "load", "lengths", "push" or "wave"
         As Figs. 10-12, as Fig. 13, what springs carry, or an animated SVG, which takes
         no other parameter.
@@ -72,19 +72,17 @@ def plot(
     Raises
     ------
     ValueError
-        If there is no such figure or event, or a push or a wave is asked of a larger
-        chain, whose positions are not kept, or with data, or a wave with anything.
+        If there is no such figure or event, if it needs a `Run`, or if a push or a wave
+        is asked with data, or a wave with anything.
     """
     if figure not in AXES:
         raise ValueError(f"figure must be one of {', '.join(AXES)}, but is {figure!r}")
     look = Look(**look) if isinstance(look, Mapping) else look
     if events and figure != "push":
         raise ValueError("only a push takes events")
+    if figure != "lengths" and not isinstance(run, Run):
+        raise ValueError(f"a {figure} needs a Run, but this is a Record")
     if not AXES[figure]:
-        if not isinstance(run, Run):
-            raise ValueError(
-                f"a {figure} needs a run of the paper's chain, not of a larger one"
-            )
         if data is not NO_DATA:
             raise ValueError(f"a {figure} takes no data")
         if figure == "push":

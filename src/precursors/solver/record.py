@@ -51,7 +51,7 @@ class Dataset(NamedTuple):
 
     unit: str
     type: str
-    shape: tuple[str | int, ...]
+    shape: tuple[str, ...]
 
 
 # The arrays of a record and of its chain, by their names in a file.
@@ -62,7 +62,6 @@ DATASETS = {
     "transitions/block": Dataset("1", "i4", ("transitions",)),
     "transitions/mode": Dataset("1", "i1", ("transitions",)),
     "transitions/tangential_load": Dataset("N", "f8", ("transitions",)),
-    "load_points": Dataset("s, N", "f8", ("points", 2)),
     "start_positions": Dataset("m", "f8", ("blocks",)),
     "start_velocities": Dataset("m/s", "f8", ("blocks",)),
     "states/force": Dataset("N", "f8", ("states", "blocks")),
@@ -74,26 +73,22 @@ DATASETS = {
 
 
 def arrays_of(record: Any) -> dict[str, NDArray[Any]]:
-    """The arrays of a record and of its chain, by their names in `DATASETS`."""
-    arrays = {"weights": record.chain.weights}
-    for name, value in vars(record).items():
-        if name == "transitions":
-            of_columns = {column: value[column] for column in value.dtype.names or ()}
-        elif name == "states":
-            of_columns = value._asdict()
-        elif isinstance(value, np.ndarray):
-            arrays[name] = value
-            continue
-        else:
-            continue
-        arrays |= {f"{name}/{column}": of for column, of in of_columns.items()}
+    """The arrays of a record, or of a run, and of its chain, by their names in
+    `DATASETS`."""
+    arrays = {"weights": record.chain.weights, "intervals": record.intervals}
+    arrays |= {f"transitions/{name}": record.transitions[name] for name in COLUMNS}
+    if hasattr(record, "states"):
+        arrays["start_positions"] = record.start_positions
+        arrays["start_velocities"] = record.start_velocities
+        states = record.states._asdict()
+        arrays |= {f"states/{name}": values for name, values in states.items()}
     return arrays
 
 
 def wrong_shape(arrays: Mapping[str, Any]) -> str:
     """Say which array, in memory or in a file, is of another type, or has a shape that
     does not fit the others, or nothing."""
-    lengths: dict[str | int, int] = {2: 2}
+    lengths: dict[str, int] = {}
     for name, array in arrays.items():
         dataset = DATASETS[name]
         if array.dtype != dataset.type:

@@ -96,33 +96,13 @@ class Record:
         states.
         """
         content = read_record(path)
-        kind: type[Record] = Record
-        if "states" in content:
-            kind = Run
-        elif "load_points" in content:
-            kind = LargerRun
+        kind: type[Record] = Run if "states" in content else Record
         if not issubclass(kind, cls):
             raise RunFileError(
                 f"{path} holds a {kind.__name__} and not a {cls.__name__}: "
                 "Record.load reads it"
             )
         return kind.from_columns(**content)
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class LargerRun(Record):
-    """A larger chain's record, made with steps, with its load between transitions.
-
-    Attributes
-    ----------
-    numbers : dict
-        Numbers of the chain beyond those of a `Chain`, and the accuracy of the run.
-    load_points : array, shape (n, 2)
-        Times [s] and F_X [N] between which straight lines draw the load.
-    """
-
-    numbers: dict[str, Any]
-    load_points: FloatArray
 
 
 @dataclass(frozen=True, eq=False, repr=False)

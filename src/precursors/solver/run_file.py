@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import hashlib
-import json
 from collections.abc import Iterable, Mapping
 from importlib.metadata import version
 from io import BytesIO
+from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -32,11 +32,8 @@ if TYPE_CHECKING:
 FORMAT = "precursors run 7"
 WITHOUT_CHECKSUM = "precursors run 6"  # else the same
 TEXTS = ["format", "precursors", "numpy", "duration_unit"]
+LAST_LARGER = "88883c9"  # the last commit with friction that falls, and viscosity
 SCALARS = ARGUMENTS[1:]
-# Of a record, a larger chain's record, and a run.
-OF_RECORD = ["weights", "intervals", *(f"transitions/{name}" for name in COLUMNS)]
-OF_LARGER = [*OF_RECORD, "load_points"]
-OF_RUN = [name for name in DATASETS if name != "load_points"]
 GROUPS = ("transitions", "states")
 # Bytes of an array over those that the file has of it: gzip makes at most 1032 of one.
 MOST_COMPRESSED = 1100
@@ -56,12 +53,8 @@ def write_record(record: Record, path: AnyPath) -> None:
         "numpy": np.__version__,
         "duration_unit": "s",
         **{name: getattr(record.chain, name) for name in [*SCALARS, "theta"]},
+        **{name: x for name, x in vars(record).items() if isinstance(x, Real)},
     }
-    for name, value in vars(record).items():
-        if name == "numbers":
-            attributes[name] = json.dumps(value)
-        elif isinstance(value, float):
-            attributes[name] = value
     # Of a fixed length: HDF5 has checksums for all but the texts that have none, and
     # may hang in these.
     attributes = {
@@ -115,7 +108,14 @@ def read_record(path: AnyPath) -> dict[str, Any]:
     memory = BytesIO(Path(path).read_bytes())
     try:
         with h5py.File(memory, "r") as file:
+            if "load_points" in file:
+                raise RunFileError(
+                    f"{path} is a run of a larger chain, which commit {LAST_LARGER} was "
+                    f"the last to have: git checkout {LAST_LARGER} reads it"
+                )
             return _content(file)
+    except RunFileError:
+        raise
     except Exception as error:  # nearly any, as the file may hold anything
         reason = " ".join(str(error).split()).strip("'\"")
         raise RunFileError(
@@ -130,19 +130,15 @@ def _content(file: h5py.File) -> dict[str, Any]:
     if form not in (FORMAT, WITHOUT_CHECKSUM):
         raise ValueError(f"its format is not {FORMAT!r}, which is read here")
     stored = _datasets(file)
-    datasets = OF_RECORD
-    others = ["theta", "duration"]
-    if "load_points" in stored:
-        datasets = OF_LARGER
-        # "larger" is the name in files written so far.
-        others.append("larger" if "larger" in attributes else "numbers")
-    elif "states/after" in stored:
-        datasets = OF_RUN
-        others.append("evaluations")
+    datasets = ["weights", "intervals", *(f"transitions/{name}" for name in COLUMNS)]
+    wanted = [*TEXTS, *SCALARS, "theta", "duration"]
+    if "states/after" in stored:
+        datasets = list(DATASETS)
+        wanted.append("evaluations")
     if form == FORMAT:
-        others.append("checksum")
+        wanted.append("checksum")
     _check_names("dataset", stored, datasets)
-    _check_names("attribute", attributes, [*TEXTS, *SCALARS, *others])
+    _check_names("attribute", attributes, wanted)
     if reason := wrong_shape(stored):
         raise ValueError(reason)
 
@@ -160,13 +156,11 @@ def _content(file: h5py.File) -> dict[str, Any]:
     content: dict[str, Any] = {"chain": chain}
     content["duration"] = not_negative("duration", attributes["duration"], "s")
     content |= {name: arrays.pop(f"transitions/{name}") for name in COLUMNS}
-    if datasets is OF_RUN:
+    if "states/after" in arrays:
         states = [arrays.pop(f"states/{name}") for name in States._fields]
         content["states"] = States(*states)
         evaluations = not_negative("evaluations", attributes["evaluations"], "1")
         content["evaluations"] = evaluations
-    elif datasets is OF_LARGER:
-        content["numbers"] = json.loads(attributes[others[2]])
     return content | arrays
 
 

@@ -43,7 +43,7 @@ def simulate(
     Parameters
     ----------
     chain : Chain
-        The chain; a `LargerChain` has `simulate` itself.
+        The chain.
     duration : float
         Time to run [s]; with `until`, the limit.
     until : "global slip", optional
@@ -82,9 +82,8 @@ def checked_end(
     """Check what is simulated and where it ends."""
     for chain in chains:
         if not isinstance(chain, Chain):
-            own = ", which has its own simulate()" if hasattr(chain, "simulate") else ""
             raise TypeError(
-                f"what is simulated must be a Chain, but is {type(chain).__name__}{own}"
+                f"what is simulated must be a Chain, but is {type(chain).__name__}"
             )
     if most is None:
         is_long = any(chain.n_blocks > MANY_BLOCKS for chain in chains)

@@ -6,7 +6,6 @@ from fractions import Fraction
 from typing import Any
 
 from maegawa2010.scenes import scene_as_written
-from precursors.larger.chain import ADDITIONS
 from precursors.model.chain import Chain
 from precursors.proof.certificate import Certificate
 from precursors.proof.exact_chain import ExactChain
@@ -43,14 +42,11 @@ def scene_exact_chain(config: Mapping[str, Any], name: str) -> ExactChain:
     Raises
     ------
     ValueError
-        If the scene has measured weights, or is that of a larger chain.
+        If the scene has measured weights.
     """
-    scene = config["scenes"][name]
-    unproved = [key for key in ("weights", *ADDITIONS) if scene.get(key)]
-    if unproved:
+    if "weights" in config["scenes"][name]:
         raise ValueError(
-            f"scenes.{name} must be the paper's chain with theta or load cells for a proof, "
-            f"but has {', '.join(unproved)}"
+            f"scenes.{name} must have theta or load cells for a proof, but has weights"
         )
     return ExactChain.from_slider(**scene_as_written(config, name))
 

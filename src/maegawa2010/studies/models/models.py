@@ -1,12 +1,11 @@
 """The models, from the smallest to the largest, and the quantities that each of them
 answers."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
 from maegawa2010.studies.models import rigid, statics
@@ -63,8 +62,7 @@ def loading_answers(chain: Chain, slips: NDArray[np.void]) -> dict[str, Any]:
     }
 
 
-# From the smallest to the largest: all answers about a chain, by quantity. The key is
-# the word after `model:` in a scene.
+# From the smallest to the largest: all answers about a chain, by quantity.
 MODELS: dict[str, Model] = {
     "statics": statics.answers,
     "front_law": statics.front_law_answers,
@@ -73,25 +71,3 @@ MODELS: dict[str, Model] = {
     "quasistatic": partial(cascade_answers, overshoot=ENERGY_CONSERVED),
     PAPERS_MODEL: exact_answers,
 }
-
-
-def scene_answers(slider: Mapping[str, Any], model: str) -> pd.DataFrame:
-    """Ask a model all that it answers about a slider, up to the end of the first global
-    slip.
-
-    Returns
-    -------
-    DataFrame
-        One row per number: model, quantity, value and its unit; block (1..N) for the
-        load at which the front first reaches each block.
-    """
-    tables = []
-    for quantity, answer in MODELS[model](Chain.from_slider(**slider)).items():
-        table = pd.DataFrame({"value": np.atleast_1d(answer)})
-        if np.ndim(answer):
-            table["block"] = table.index + 1
-        tables.append(
-            table.assign(model=model, quantity=quantity, unit=UNITS[quantity])
-        )
-    columns = ["model", "quantity", "block", "value", "unit"]
-    return pd.concat(tables).reindex(columns=columns).astype({"block": "Int64"})

@@ -1,1 +1,0 @@
-"""Other solvers, scored on the reference problems."""

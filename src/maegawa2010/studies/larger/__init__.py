@@ -1,1 +1,0 @@
-"""Chains with a length: first slips and settled cycles."""
