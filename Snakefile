@@ -17,7 +17,7 @@ include: "workflow/rules/resolution.smk"  # the number of blocks
 include: "workflow/rules/horizon.smk"  # proofs, and how errors grow
 include: "workflow/rules/models.smk"  # smaller models, and which answers which question
 # Studies on which no claim rests
-include: "workflow/rules/mean_load.smk"  # the time mean of F_X
+include: "workflow/rules/balance.smk"  # the distance from kinetic balance, the mean of F_X
 include: "workflow/rules/failures.smk"  # where methods fail
 include: "workflow/rules/step_sweep.smk"  # counts against the step of a Runge-Kutta method
 include: "workflow/rules/work_precision.smk"  # accuracy against computing time

@@ -7,11 +7,9 @@ import matplotlib
 import numpy as np
 import pandas as pd
 import pytest
-from colorspacious import cspace_convert
 from colours import SIGHTS, alike
 from figures.test_pictures import one_length, slips
 from matplotlib import image
-from matplotlib.colors import to_rgb
 
 from maegawa2010.methods import ROWS
 from precursors import Chain, plot, simulate
@@ -65,15 +63,6 @@ def test_a_figure_of_a_run_shows_itself_and_nothing_is_said_of_fonts(caplog):
     assert figure._repr_png_().startswith(b"\x89PNG")
     figure.canvas.print_figure(BytesIO())  # as Jupyter's own back end does
     assert caplog.messages == []
-
-
-@pytest.mark.parametrize("color", style.OTHERS)
-def test_words_in_the_colour_of_a_method_stand_out_from_white(color):
-    _, luminance, _ = cspace_convert(to_rgb(style.readable(color)), "sRGB1", "XYZ100")
-    contrast = 1.05 / (luminance / 100 + 0.05)
-    assert contrast > 0.999 * style.CONTRAST
-    if color == "#4B1FA8":  # dark enough
-        assert style.readable(color) == color.lower()
 
 
 def test_an_svg_has_its_words_as_text_and_a_title(tmp_path):

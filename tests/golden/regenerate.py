@@ -10,7 +10,7 @@ from unittest import mock
 
 import codecheck
 from explorer import example
-from places import GOLDEN, ROOT
+from places import GOLDEN, RESULTS, ROOT
 
 from precursors.figures import style
 from precursors.support.files import write_whole

@@ -6,7 +6,13 @@ replace paper/tables/work_precision_full.csv and the golden chart.
 """
 
 import pytest
+from colorspacious import cspace_convert
+from matplotlib.colors import to_rgb
 from places import committed, made
+
+from maegawa2010.studies.work_precision.figure import draw
+
+LEAST_CONTRAST = 4.5  # of words with white (WCAG)
 
 
 @pytest.mark.parametrize(
@@ -21,3 +27,12 @@ def test_every_method_that_comes_as_close_as_the_exact_solver_takes_longer(read,
     as_close = whole[whole["time_error_s"] <= exact["time_error_s"]]
     assert (as_close["seconds"] > exact["seconds"]).all()
     assert set(as_close["method"]) <= {"heyoka"}
+
+
+def test_words_of_the_published_chart_stand_out_from_white():
+    (axes,) = draw(committed("work_precision_full"), compared="heyoka").axes
+    words = {text.get_text(): text.get_color() for text in axes.texts}
+    assert {"heyoka", "RK4,\nlocated", "11 times"} <= words.keys()
+    for color in words.values():
+        _, luminance, _ = cspace_convert(to_rgb(color), "sRGB1", "XYZ100")
+        assert 1.05 / (luminance / 100 + 0.05) >= LEAST_CONTRAST

@@ -8,7 +8,7 @@ rule write_explorer:
             path for path in (PAPERS / "explorer").iterdir() if path.suffix in (".js", ".css", ".html")
         ),
         slips=SLIPS,
-        measures="results/tables/measures.csv",
+        balance="results/tables/balance.csv",
         members="results/tables/digits_members.csv",
         shares="results/tables/digits.csv",
         # to 320 blocks, of the paper's slider

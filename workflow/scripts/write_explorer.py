@@ -22,14 +22,15 @@ def scene_data(
     slider: dict[str, Any],
     slips: pd.DataFrame,
     members: pd.DataFrame,
-    measures: pd.DataFrame,
+    balance: pd.DataFrame,
     resolution: pd.DataFrame,
 ) -> dict[str, Any]:
     """What the page has of a scene: see `write_explorer`."""
     found = summary_of(slips)
     draws = members.query("scene == @scene and draw > 0")["mu_sapp"].dropna()
     agree = (draws - printed.MU_SAPP).abs() <= TOLERANCES["mu_sapp"]
-    mean = measures.set_index("scene")["mean"].get(scene)
+    own = balance[balance["n_blocks"] == slider["n_blocks"]]
+    mean = own.set_index("scene")["mean"].get(scene)
     medians = resolution.query("scene == @scene and quantity == 'mu_sapp'")
     medians = medians[medians["n_blocks"] >= slider["n_blocks"]]
     return {
@@ -53,7 +54,7 @@ with job() as snakemake:
     params = snakemake.params
     tables = [
         pd.read_csv(snakemake.input[name])
-        for name in ("members", "measures", "resolution")
+        for name in ("members", "balance", "resolution")
     ]
     slips = map(pd.read_csv, snakemake.input.slips)
     shares = pd.read_csv(snakemake.input.shares).query("question == 'all_six'")

@@ -6,8 +6,6 @@ from collections.abc import Mapping
 
 import pandas as pd
 
-from precursors.analysis.mean_load import MeanLoad, mean_load
-from precursors.analysis.slips import find_slips
 from precursors.analysis.summary import summarise, summary_of
 from precursors.model.statics import maximal_compressions
 from precursors.solver.run import Run
@@ -23,8 +21,8 @@ UNITS = {
 
 
 def measures_table(runs: Mapping[str, Run]) -> pd.DataFrame:
-    """One row per scene: parameters of its chain (Eqs. 2-10), its residual strain and
-    its `mean_after_slip`, units in the names."""
+    """One row per scene: parameters of its chain (Eqs. 2-10) and its residual strain,
+    units in the names."""
     return pd.DataFrame(
         {
             "scene": scene,
@@ -37,19 +35,9 @@ def measures_table(runs: Mapping[str, Run]) -> pd.DataFrame:
             "drive_stiffness_N_per_m": run.chain.drive_stiffness,
             "drive_velocity_m_per_s": run.chain.drive_velocity,
             "residual_strain": residual_strain(run),
-            **mean_after_slip(run)._asdict(),
         }
         for scene, run in runs.items()
     )
-
-
-def mean_after_slip(run: Run) -> MeanLoad:
-    """Mean of F_X from the onset of the first global slip to that of the last; NaN if
-    there are not two."""
-    onsets = find_slips(run).query("is_global")["onset"]
-    if len(onsets) < 2:
-        return MeanLoad(math.nan, math.nan, math.nan)
-    return mean_load(run, onsets.iloc[0], onsets.iloc[-1])
 
 
 def residual_strain(run: Run) -> float:

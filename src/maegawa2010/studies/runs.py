@@ -1,6 +1,7 @@
 """The runs of a study's members, each with its numbers."""
 
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 import pandas as pd
 
@@ -11,7 +12,7 @@ from precursors.analysis.slips import slip_columns
 from precursors.analysis.summary import summaries
 from precursors.model.chain import Chain
 from precursors.solver.many import simulate_many
-from precursors.solver.run import Record
+from precursors.solver.run import Record, Run
 from precursors.solver.simulate import TransitionLimitError
 
 # Runs of a batch are in memory at the same time: some 200 of 10 blocks, 10 of 200.
@@ -35,7 +36,7 @@ def run_members(study: Study) -> pd.DataFrame:
             chains = [
                 chain_of(member, study.seed) for member in batch.to_dict("records")
             ]
-            runs = _runs(chains, float(batch["duration"].iloc[0]))
+            runs = up_to_global_slip(chains, float(batch["duration"].iloc[0]))
             results.append(numbers_of(runs).set_index(batch.index))
     return study.members.join(pd.concat(results))
 
@@ -51,12 +52,13 @@ def numbers_of(runs: Iterable[Record]) -> pd.DataFrame:
     )
 
 
-def _runs(chains: Sequence[Chain], duration: float) -> Sequence[Record]:
+def up_to_global_slip(chains: Sequence[Chain], duration: float) -> Sequence[Run]:
     """Run a batch; a run that meets the limit of transitions is kept as far as it
     came."""
     try:
         return simulate_many(chains, duration, "global slip", 1)
     except TransitionLimitError as limit:
         if len(chains) == 1:
-            return [limit.run]
-        return [run for chain in chains for run in _runs([chain], duration)]
+            so_far: Any = limit.run
+            return [so_far]
+        return [run for chain in chains for run in up_to_global_slip([chain], duration)]

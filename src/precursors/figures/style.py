@@ -45,7 +45,6 @@ LOADINGS = {
     1: "more load at the leading edge",
 }
 PALE = "#E6E6E6"
-CONTRAST = 4.5  # of words with white
 NO_DATA = np.empty((0, 2))  # measured points that a scene is drawn without
 
 MM_PER_M = 1e3
@@ -192,20 +191,6 @@ def save(
     with matplotlib.style.context(look.settings, after_reset=True):
         figure.savefig(buffer, format=ending[1:], dpi=PNG_DPI, metadata=metadata)
     write_whole(path, re.sub(rb"%%CreationDate: .*\n", b"", buffer.getvalue()))
-
-
-def readable(color: str) -> str:
-    """Darken a colour until words in it stand out from white, as WCAG asks."""
-    rgb = np.array(to_rgb(color))
-    while 1.05 / (_luminance(rgb) + 0.05) < CONTRAST:
-        rgb *= 0.98
-    return to_hex(tuple(rgb))
-
-
-def _luminance(rgb: NDArray[np.float64]) -> float:
-    """Relative luminance of a colour in sRGB, 0 of black and 1 of white."""
-    linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
-    return float(linear @ (0.2126, 0.7152, 0.0722))
 
 
 def columns(figure: Figure, label: str, n: int) -> NDArray[Any]:

@@ -1,0 +1,136 @@
+"""Six runs: the mean of F_X over the path of the drive, and what slips do to the distance
+R from kinetic balance (`precursors.analysis.balance`)."""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from precursors.analysis.balance import balance, distance, drive_work
+from precursors.analysis.horizon import horizon
+from precursors.analysis.load_curve import load_curve
+from precursors.analysis.slips import find_slips
+from precursors.model.chain import Chain
+from precursors.solver.run import Run
+from precursors.solver.simulate import simulate
+
+# Error of a transition's time from which on single events are not predicted, and how far
+# runs are tried for it: with many blocks it grows fast, and trying takes 24 runs.
+UNPREDICTED_S = 1e-6
+BLOCK_SECONDS_TRIED = 200.0
+# Columns of pixels of a panel: two points in each show all peaks.
+PIXELS = 400
+
+
+class Mean(NamedTuple):
+    """Mean of F_X over a path of the drive, and what makes it differ from mu_k F_Z, all
+    over F_Z: mean = mu_k + stored + backward - remainder."""
+
+    mean: float
+    stored: float  # by the change of R
+    backward: float  # by backward sliding
+    remainder: float  # that the identity does not explain
+
+
+def balance_tables(
+    sliders: Mapping[str, Mapping[str, Any]],
+    n_blocks: Sequence[int],
+    duration: float,
+) -> dict[str, pd.DataFrame]:
+    """The tables of the runs, by file name.
+
+    balance.csv has a row for each run: predictable_s, until when single events are
+    predicted; from the onset of the first global slip to that of the last (first_s,
+    last_s) the columns of `Mean` and the largest F_X/F_Z; and those of `over_slips`.
+    balance_curves.csv has points of F_X/F_Z.
+    """
+    rows, curves = [], []
+    for scene, slider in sliders.items():
+        for n in n_blocks:
+            chain = Chain.from_slider(**{**slider, "n_blocks": n})
+            run = simulate(chain, duration)
+            labels: dict[str, Any] = {"scene": scene, "n_blocks": n}
+            labels["theta"] = chain.theta
+            rows.append(labels | row_of(run))
+            curves.append(curve(run).assign(**labels))
+    return {
+        "balance": pd.DataFrame(rows),
+        "balance_curves": pd.concat(curves, ignore_index=True),
+    }
+
+
+def row_of(run: Run) -> dict[str, float]:
+    """A row of balance.csv; what needs two global slips is NaN without them."""
+    slips = find_slips(run)
+    onsets = slips["onset"][slips["is_global"]]
+    first, last = onsets.min(), onsets.max()
+    is_lasting = first < last
+    mean = mean_of(run, first, last) if is_lasting else Mean(*[math.nan] * 4)
+    return {
+        "mu_k": run.chain.mu_k,
+        "predictable_s": predictable(run),
+        "first_s": first,
+        "last_s": last,
+        **mean._asdict(),
+        "largest": largest(run, first, last) if is_lasting else math.nan,
+        **over_slips(run, slips),
+    }
+
+
+def predictable(run: Run) -> float:
+    """Time until which single events are predicted [s]; at most what is tried."""
+    tried = min(run.duration, BLOCK_SECONDS_TRIED / run.chain.n_blocks)
+    return horizon(simulate(run.chain, tried), UNPREDICTED_S)
+
+
+def mean_of(run: Run, start: float, end: float) -> Mean:
+    """Mean of F_X from `start` to `end` [s], and what it consists of."""
+    chain = run.chain
+    found = balance(run, start, end)
+    unit = chain.normal_load * chain.drive_velocity * (end - start)
+    return Mean(
+        chain.mu_k + found.work / unit,
+        found.change / unit,
+        found.backward / unit,
+        found.remainder / unit,
+    )
+
+
+def largest(run: Run, start: float, end: float) -> float:
+    """Largest F_X/F_Z at a transition from `start` to `end` [s]."""
+    times = run.transitions["time"]
+    inside = run.transitions[(times >= start) & (times <= end)]
+    return float(inside["tangential_load"].max()) / run.chain.normal_load
+
+
+def over_slips(run: Run, slips: pd.DataFrame) -> dict[str, float]:
+    """What slips do to R, in units of R at their onset: the median and the largest change
+    of R, and work that the drive does meanwhile beside kinetic friction.
+
+    slips is their number, and slips_backward that of those in which a block slides
+    backward.
+    """
+    over = slips.dropna(subset="end")
+    before, after = distance(run, over["onset"]), distance(run, over["end"])
+    work = drive_work(run, over["end"]) - drive_work(run, over["onset"])
+    backward = run.transitions["time"][run.transitions["mode"] == -1]
+    n_backward = np.searchsorted(backward, [over["onset"], over["end"]])
+    row: dict[str, float] = {"slips": len(over)}
+    row["slips_backward"] = int(np.diff(n_backward, axis=0).astype(bool).sum())
+    for name, joules in (("change", after - before), ("work", work)):
+        share = pd.Series(abs(joules) / before)
+        row |= {f"{name}_median": share.median(), f"{name}_largest": share.max()}
+    return row
+
+
+def curve(run: Run) -> pd.DataFrame:
+    """F_X/F_Z as few points that look the same: the least and the largest in each column
+    of pixels."""
+    times, loads = load_curve(run)
+    column = np.minimum(PIXELS * times // run.duration, PIXELS - 1)
+    of_column = pd.Series(loads).groupby(column)
+    shown = np.unique([0, len(times) - 1, *of_column.idxmin(), *of_column.idxmax()])
+    load = loads[shown] / run.chain.normal_load
+    return pd.DataFrame({"time_s": times[shown], "load": load})

@@ -1,1 +1,0 @@
-"""The time mean of F_X under many loadings and drives."""

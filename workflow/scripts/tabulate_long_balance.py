@@ -1,0 +1,24 @@
+"""Measure the mean of F_X and the distance from kinetic balance in many long runs."""
+
+from job import job, write_tables
+
+from maegawa2010.studies.balance.long import (
+    blocks_table,
+    first_slips_table,
+    loads_table,
+    runs_table,
+)
+
+with job() as snakemake:
+    slider, sliders = snakemake.params.slider, snakemake.params.sliders
+    settings = snakemake.params.settings
+    seed = settings["seed"]
+    tables = {
+        "balance_first_slips": first_slips_table(
+            sliders, settings["first_slips"], seed
+        ),
+        "balance_blocks": blocks_table(slider, settings["blocks_seconds"]),
+        "balance_loads": loads_table(slider, settings["loads"], seed),
+        "balance_runs": runs_table(slider, settings["runs"], seed),
+    }
+    write_tables(tables, snakemake.output)
