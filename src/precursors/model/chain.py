@@ -16,9 +16,9 @@ from precursors.model.checks import (
     LARGEST,
     MOST_BLOCKS,
     SMALLEST,
+    block_array,
     not_negative,
     number,
-    number_array,
     positive,
     whole,
 )
@@ -210,7 +210,7 @@ class Chain:
         **slider
             Other arguments of `from_slider`.
         """
-        cells = number_array("profile", profile, "any unit")
+        cells = block_array("profile", profile, "any unit")
         if cells.ndim not in (1, 2) or not (
             np.isfinite(cells).all() and cells.min(initial=0) >= 0 < cells.sum()
         ):
@@ -397,7 +397,7 @@ def _must_agree(name: str, given: object, *allowed: object) -> None:
 
 
 def _weights(values: ArrayLike) -> FloatArray:
-    weights = number_array("weights", values, "N")
+    weights = block_array("weights", values, "N")
     if weights.ndim != 1 or not 1 <= weights.size <= MOST_BLOCKS:
         raise ValueError(
             f"weights must be one number [N] a block, at most {MOST_BLOCKS}, but have shape {weights.shape}"
