@@ -29,6 +29,7 @@ def test_the_numbers_of_runs_with_and_without_events_and_global_slips():
     assert found["mu_sapp"].round(4)[2] == 0.4845
     assert apparent_friction(simulate(chain, 10.0)) == found["mu_sapp"][2]
     assert summarise([]).columns.equals(found.columns)
+    assert summarise(simulate(chain, 10.0)).equals(found[2:].reset_index(drop=True))
 
 
 def test_mu_sapp_is_the_largest_load_before_the_global_slip_though_an_earlier_event_reached_it():

@@ -1,6 +1,7 @@
 """The auditor: it passes what is a motion of the model and finds each kind of
 falsification."""
 
+import copy
 import math
 import re
 import sys
@@ -15,6 +16,7 @@ from chains import SLIDER, first_transitions, positions_under
 from precursors import Run, simulate
 from precursors.audit import audit, carried, conditions, motion
 from precursors.audit.checks import MAX_PROBLEMS, Auditor
+from precursors.model.chain import remember_theta
 
 # What an exact run of the paper's scenes is off by at most, in roundings; 16
 # may pass.
@@ -211,6 +213,34 @@ def falsified(uniform: Run) -> Iterator[tuple[Run, str]]:
     yield changed(overloaded, 0, block=3), "block 3 releases to -1 below the limit"
     weightless = simulate(SLIDER(theta=-1), 1.0)
     yield changed(weightless, 0, block=10), "block 10 bears no load"
+    yield from falsified_states(uniform)
+    yield (
+        replace(uniform, chain=remember_theta(copy.copy(uniform.chain), 0.5)),
+        "theta = 0.5 is not that of the weights",
+    )
+
+
+def falsified_states(run: Run) -> Iterator[tuple[Run, str]]:
+    """Runs with one mistake each in what `at` starts from."""
+    states = run.states
+    for name, words in [
+        ("force", "state 1 has a force of block . that is wrong by .* N"),
+        ("velocity", "state . has a velocity of block . that is wrong by .* m/s"),
+        ("mode", "state 0 has other modes than the blocks"),
+        ("after", "the first stored state is not that of the start"),
+        ("offset", "the first stored state is not that of the start"),
+    ]:
+        values = getattr(states, name)
+        others = 1.01 * values if name in ("force", "velocity") else values + 1
+        yield replace(run, states=states._replace(**{name: others})), words
+    swapped = states.after.copy()
+    swapped[3:5] = swapped[[4, 3]]
+    yield replace(run, states=states._replace(after=swapped)), "stored state 4, 0 s aft"
+    late = states.offset.copy()
+    late[3] = 1.0
+    yield replace(run, states=states._replace(offset=late)), "stored state 3, 1 s after"
+    single = states._replace(force=states.force.astype("f4"))
+    yield replace(run, states=single), "force is of type float32 and not float64"
 
 
 def test_each_kind_of_mistake_is_found_and_told_as_it_was(uniform):

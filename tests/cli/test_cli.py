@@ -15,6 +15,8 @@ from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
 
+import h5py
+import numpy as np
 import pandas as pd
 import pytest
 from matplotlib.text import Text
@@ -109,6 +111,9 @@ def test_the_version_is_told_with_the_commit_of_a_checkout(cli, monkeypatch):
     )
     told = f"precursors {version('precursors')}\ncommit abc, and files have changed since\n"
     assert cli("--version") == (0, f"{told}rev\ndir\n", "")
+    monkeypatch.setattr(commands, "git_state", lambda place: None)
+    told = f"precursors {version('precursors')}\ncommit unknown: it was built without git\n"
+    assert cli("--version") == (0, told, "")
 
 
 # simulate
@@ -236,6 +241,18 @@ def test_a_reader_that_has_enough_is_no_error():
 
 
 # plot
+
+
+def test_a_terminal_without_a_letter_of_a_name_is_no_error(run_file, tmp_path):
+    path = tmp_path / "θ.png"
+    done = subprocess.run(
+        [*COMMAND, "plot", run_file, "--output", path],
+        env=os.environ | {"PYTHONIOENCODING": "ascii"},
+        capture_output=True,
+    )
+    assert (done.returncode, done.stderr) == (0, b"")
+    assert done.stdout.endswith(rb"\u03b8.png" + os.linesep.encode())
+    assert path.exists()
 
 
 @pytest.mark.parametrize(
@@ -428,6 +445,20 @@ def test_audit_refuses_a_damaged_file_and_a_transition_moved_by_a_nanosecond(
     assert (code, err.count("\n")) == (1, 1)
     assert err.startswith(
         f"precursors audit: {tmp_path / 'moved.h5'}: not a motion of the model: "
+    )
+
+
+def test_audit_says_what_is_not_checked_of_an_older_file(cli, run_file, tmp_path):
+    old = tmp_path / "old.h5"
+    old.write_bytes(run_file.read_bytes())
+    with h5py.File(old, "r+") as file:
+        file.attrs["format"] = np.bytes_(b"precursors run 6")
+        del file.attrs["checksum"]
+    code, out, err = cli("audit", old)
+    assert (code, out.startswith(f"{old}: a motion of the model")) == (0, True)
+    assert (
+        err
+        == f"{old} has no checksum, as it is older: the length of its contact is not checked\n"
     )
 
 

@@ -46,6 +46,18 @@ def test_a_file_has_no_date_and_the_same_bytes_whichever_is_first_and_whatever_t
     assert image.imread(tmp_path / "first.png").shape[1] == int(300 * 85 / 25.4)
 
 
+def test_a_user_who_saves_a_figure_gets_its_size_and_fonts(tmp_path):
+    figure = plot(simulate(Chain.from_slider(), 1.0))
+    figure.savefig(tmp_path / "plain.png")
+    theirs = {"savefig.bbox": "tight", "savefig.dpi": 50, "pdf.fonttype": 3}
+    with matplotlib.rc_context(theirs):
+        for ending in ("png", "pdf"):
+            figure.savefig(tmp_path / f"theirs.{ending}")
+    files = {file.name: file.read_bytes() for file in tmp_path.iterdir()}
+    assert files["theirs.png"] == files["plain.png"]
+    assert b"/Type3" not in files["theirs.pdf"]
+
+
 def test_a_figure_of_a_run_shows_itself_and_nothing_is_said_of_fonts(caplog):
     figure = plot(simulate(Chain.from_slider(), 1.0))
     assert figure._repr_png_().startswith(b"\x89PNG")

@@ -8,6 +8,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from maegawa2010 import printed
@@ -62,6 +63,33 @@ def test_a_chain_cannot_be_changed():
         assert not twin.weights.flags.writeable
 
 
+class Quantity(np.ndarray):
+    """An array with a unit, which NumPy drops."""
+
+    units = "kN"
+
+    def __new__(cls, values):
+        return np.asarray(values).view(cls)
+
+    def __repr__(self) -> str:
+        return "<20 mN>"
+
+
+@pytest.mark.parametrize(
+    "weights",
+    [
+        (20, 30.0),
+        np.array([20, 30], dtype=">i2"),
+        [Fraction(20), np.float32(30.0)],
+        pd.Series([20.0, 30.0], index=["a", "b"]),
+        pd.Series([20, 30], index=[1, 2], dtype="Int64"),
+        pd.Series([30.0, 20.0], index=[1, 0]).sort_index(),
+    ],
+)
+def test_loads_are_read_from_numbers_of_any_type(weights):
+    assert Chain.from_slider(weights=weights).weights.tolist() == [20.0, 30.0]
+
+
 @pytest.mark.parametrize(
     ("argument", "value", "words"),
     [
@@ -91,7 +119,47 @@ def test_a_chain_cannot_be_changed():
         ("weights", [], "weights must be one number [N] a block"),
         ("weights", [1.0, -1.0], "but that of block 2 is -1.0 N"),
         ("weights", [0.0, 0.0], "above 0 N, but all are 0 N"),
-        ("weights", np.ma.masked_less([1, 2], 2), "weights must be numbers [N], but"),
+        ("weights", np.ma.masked_less([1, 2], 2), "[N] without a mask, but are masked"),
+        (
+            "weights",
+            ["20", 30.0],
+            "weights[0] must be a finite number [N], but is '20'",
+        ),
+        (
+            "weights",
+            [20.0, True],
+            "weights[1] must be a finite number [N], but is True",
+        ),
+        (
+            "weights",
+            np.array(["20"]),
+            "weights must be numbers [N], but are array(['20'",
+        ),
+        (
+            "weights",
+            np.array([True]),
+            "weights must be numbers [N], but are array([ Tr",
+        ),
+        (
+            "weights",
+            np.array([1.0], object),
+            "numbers [N], but are array([1.0], dtype=o",
+        ),
+        (
+            "weights",
+            Quantity([0.02]),
+            "without a unit of their own, but are <20 mN>: con",
+        ),
+        (
+            "weights",
+            pd.Series([20.0, 30.0], index=[1, 0]),
+            "in the order of the blocks, but their index is [1, 0]: sort_index() sorts",
+        ),
+        (
+            "weights",
+            pd.Series([20.0, None], dtype="Float64"),
+            "but that of block 2 is nan N",
+        ),
     ],
 )
 def test_a_bad_value_is_named_with_its_unit_and_range(argument, value, words):

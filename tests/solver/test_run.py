@@ -2,6 +2,9 @@
 refused."""
 
 import fcntl
+from collections.abc import Iterator
+from io import BytesIO
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -9,7 +12,9 @@ import pytest
 from chains import SLIDER, first_transitions
 from random_chains import mild_chain
 
-from precursors import Record, Run, RunFileError, simulate
+from precursors import Record, Run, RunFileError, audit, simulate
+from precursors.solver.record import arrays_of
+from precursors.solver.run_file import SCALARS, WITHOUT_CHECKSUM
 
 # Of the duration: some tens of transitions of chains drawn at random.
 RANDOM = 1e-9
@@ -86,6 +91,13 @@ def test_times_outside_the_run_or_that_are_no_numbers_are_refused(run, times, wo
         run.at(times)
 
 
+def without_checksum(path: Path) -> None:
+    """Make a file one of the releases that wrote no checksum."""
+    with h5py.File(path, "r+") as file:
+        file.attrs["format"] = np.bytes_(WITHOUT_CHECKSUM)
+        del file.attrs["checksum"]
+
+
 def assert_same(read: Record, run: Record) -> None:
     """Demand that two records have the same numbers, to the last bit."""
     assert (read.chain, read.duration) == (run.chain, run.duration)
@@ -125,7 +137,7 @@ def test_a_saved_run_comes_back_bit_for_bit_and_says_what_its_numbers_are(
 
 def test_a_file_that_is_no_whole_run_is_refused_in_one_line(path):
     whole = path.read_bytes()
-    other = whole.replace(b"precursors run 6", b"precursors run 9", 1)
+    other = whole.replace(b"precursors run 7", b"precursors run 9", 1)
     for content in (whole[:-100], other):
         path.write_bytes(content)
         with pytest.raises(RunFileError, match=r"^.*run\.h5 is not a run file[^\n]*$"):
@@ -157,6 +169,102 @@ def test_whatever_byte_is_damaged_the_file_is_refused_or_has_the_same_run(run, p
         for kept, known in zip(read.states, run.states, strict=True):
             np.testing.assert_array_equal(kept, known)
     assert n_refused > 50
+
+
+def other_values(values: np.ndarray) -> Iterator[np.ndarray]:
+    """What could stand in place of an array: other values, types, shapes, lengths."""
+    if values.dtype.kind == "f":
+        one = values.copy()
+        one.flat[np.argmax(abs(one))] *= 1 + 1e-6
+        yield from (1.01 * values, one, np.full_like(values, np.nan))
+        yield from (values.astype("f4"), values.astype("i8"))
+    else:
+        yield from (values + 1, values[::-1], values + 0.4, values.astype("f8"))
+        yield from (values.astype("i8") + 256, values.astype("i8") + 2**32)
+    yield from (values.astype("S24"), values[None], values[:-1], values[1:])
+    yield from (values[:0], np.concatenate([values, values[-1:]]))
+
+
+def changes(run: Run) -> Iterator[tuple[str, str, object]]:
+    """Names of datasets and attributes, and what is put in their place: None leaves
+    them out."""
+    for name, values in arrays_of(run).items():
+        for other in (None, *other_values(values)):
+            if not np.array_equal(other, values) or other.dtype != values.dtype:
+                yield "dataset", name, other
+        yield "dataset", f"{name}s", values
+    for name in (*SCALARS, "theta", "duration", "evaluations"):
+        yield from (("attribute", name, value) for value in (None, b"0.1", [0.1]))
+    for name in (*SCALARS, "duration"):
+        of = run if name == "duration" else run.chain
+        yield "attribute", name, 1.01 * getattr(of, name)
+    yield from [("attribute", "theta", 0.5), ("attribute", "note", 1.0)]
+
+
+def changed(good: bytes, kind: str, name: str, value: object) -> bytes:
+    """The file of a run with one change."""
+    memory = BytesIO(good)
+    with h5py.File(memory, "r+") as file:
+        place = file.attrs if kind == "attribute" else file
+        unit = file[name].attrs["unit"] if name in file else b"1"
+        if name in place:
+            del place[name]
+        if value is not None:
+            place[name] = value
+        if value is not None and kind == "dataset":
+            file[name].attrs["unit"] = unit
+    return memory.getvalue()
+
+
+@pytest.mark.parametrize("has_checksum", [True, False])
+def test_each_change_of_a_file_is_refused_or_found_by_audit(has_checksum, path):
+    chain = SLIDER(weights=[30.0, 0.0, 20.0, 40.0])
+    run = simulate(chain, 0.8, start_positions=[0.0, 1e-6, 0.0, -1e-6])
+    run.save(path)
+    if not has_checksum:
+        without_checksum(path)
+    audit(Run.load(path)).raise_if_failed()
+    good = path.read_bytes()
+    found = []
+    for change in changes(run):
+        path.write_bytes(changed(good, *change))
+        try:
+            report = audit(Run.load(path))
+        except RunFileError:
+            continue
+        found.append((change, report.ok))
+    missed = [change[:2] for change, ok in found if ok]
+    if has_checksum:
+        assert found == []
+    else:  # nothing else in the file contradicts them
+        assert missed == [("attribute", "length")]
+        assert len(found) > 20
+
+
+@pytest.mark.parametrize("kind", ["virtual", "external", "link"])
+def test_a_dataset_of_another_file_is_refused_before_it_is_read(kind, path, tmp_path):
+    with h5py.File(path, "r+") as file:
+        n = len(file["intervals"])
+        del file["intervals"]
+        if kind == "virtual":
+            layout = h5py.VirtualLayout((n,), "f8")
+            layout[:] = h5py.VirtualSource("other.h5", "intervals", (n,))
+            file.create_virtual_dataset("intervals", layout)
+        elif kind == "external":
+            other = [(tmp_path / "other", 0, 8 * n)]
+            file.create_dataset("intervals", (n,), "f8", external=other)
+        else:
+            file["intervals"] = h5py.ExternalLink("other.h5", "intervals")
+    with pytest.raises(RunFileError, match=r"intervals is (a link|stored in another)"):
+        Run.load(path)
+
+
+def test_a_dataset_that_is_longer_than_its_file_is_refused(path):
+    with h5py.File(path, "r+") as file:
+        del file["intervals"]
+        file.create_dataset("intervals", (10**13,), "f8", chunks=True)
+    with pytest.raises(RunFileError, match="intervals is not stored whole"):
+        Run.load(path)
 
 
 def test_the_file_of_a_larger_chain_is_refused_with_what_reads_it(run, path):

@@ -91,7 +91,8 @@ def test_each_chain_starts_from_its_own_start():
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"threads": 0}, "threads must be a whole number of at least 1, but is 0"),
+        ({"threads": 0}, "threads must be a whole number from 1 to 1024, but is 0"),
+        ({"threads": 1025}, "must be a whole number from 1 to 1024, but is 1025"),
         (
             {"start_positions": []},
             "start_positions must be one for each of the 2 chains, but are 0",

@@ -1,5 +1,6 @@
 """The package: its public names, what it loads, and its wheel."""
 
+import json
 import re
 import subprocess
 import sys
@@ -11,6 +12,7 @@ import pytest
 from places import ROOT
 
 import precursors
+from precursors.support.checkout import git_state
 
 # The compiler, and what only simulations and tables need.
 HEAVY = {"numba", "h5py", "pandas"}
@@ -83,7 +85,7 @@ def package(requirement: str) -> str:
     return re.match(r"[\w-]+", requirement)[0]
 
 
-def test_the_wheel_has_every_file_of_the_package_and_nothing_else(tmp_path):
+def test_the_wheel_has_every_file_of_the_package_and_its_commit(tmp_path):
     program = f"from hatchling.build import build_wheel; print(build_wheel({str(tmp_path)!r}))"
     done = subprocess.run(
         [sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True
@@ -108,5 +110,8 @@ def test_the_wheel_has_every_file_of_the_package_and_nothing_else(tmp_path):
     listed = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     ).stdout.split()
+    if state := git_state(ROOT):  # not in an archive of the sources
+        [told] = tmp_path.glob("*.dist-info/extra_metadata/commit.json")
+        assert json.loads(told.read_text()) == state
     assert len(listed) == 8
     assert all(path.startswith(str(tmp_path)) for path in listed)

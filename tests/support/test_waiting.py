@@ -2,6 +2,7 @@
 
 import io
 import re
+import threading
 import time
 from functools import partial
 
@@ -27,6 +28,14 @@ def test_results_come_in_order_and_a_terminal_is_told_how_much_is_done(
     assert waiting.in_threads(tasks, 2) == list(range(0, 16, 2))
     is_told = re.search(r"running: [1-9]\d%", stream.getvalue()) is not None
     assert is_told == is_terminal
+
+
+def test_there_are_no_more_threads_than_tasks():
+    tasks = [lambda: threading.active_count()] * 2
+    before = threading.active_count()
+    # Beside the workers, a pool has three threads of its own.
+    assert max(waiting.in_threads(tasks, 1000)) <= before + len(tasks) + 3
+    assert waiting.in_threads([], 1000) == []
 
 
 def test_after_an_error_no_task_is_started_and_one_at_work_is_not_waited_for():

@@ -33,8 +33,8 @@ class Summary(NamedTuple):
 SUMMARY = np.dtype(list(get_type_hints(Summary).items()))
 
 
-def summarise(runs: Iterable[Record]) -> pd.DataFrame:
-    """Counts, mu_sapp and the first global slip of each run.
+def summarise(runs: Record | Iterable[Record]) -> pd.DataFrame:
+    """Counts, mu_sapp and the first global slip of each run, or of one.
 
     Returns
     -------
@@ -48,7 +48,7 @@ def summarise(runs: Iterable[Record]) -> pd.DataFrame:
         of the whole run. A global slip that the end of the run cuts off has
         global_slip_end_s NaN.
     """
-    runs = list(runs)
+    runs = [runs] if isinstance(runs, Record) else list(runs)
     transitions = np.array([len(run.transitions) for run in runs], dtype=int)
     tables = [slip_columns(slip_events(run), run.chain) for run in runs]
     return summaries(tables).assign(transitions=transitions)

@@ -32,8 +32,9 @@ def audit(run: Run, roundings: float = ROUNDINGS) -> Audit:
     Parameters
     ----------
     run : Run
-        Its chain, start, transitions, intervals and duration are checked; its stored
-        states, from which `at` starts, are not read.
+        Its chain, start, transitions, intervals, duration and stored states are
+        checked. No motion contradicts the chain's `length`, nor `evaluations`: the
+        checksum of a run file does.
     roundings : float
         Tolerance of forces and velocities, in roundings; the default is for an exact
         run.

@@ -63,9 +63,10 @@ def start_of(run: Run) -> CarriedState:
     positions = run.start_positions
     stretch = -np.diff(positions, prepend=0.0)
     # Forces at the start are differences of positions, which are known to their
-    # rounding.
+    # rounding, as velocities are.
     ends = positions**2 + np.append(0.0, positions[:-1]) ** 2
     at_start = _START_ROUNDINGS * math.sqrt(chain.springs @ ends)
+    momentum = math.sqrt(chain.mass) * np.linalg.norm(run.start_velocities)
     drive_momentum = math.sqrt(chain.mass) * chain.drive_velocity
     per_force = np.sqrt(chain.springs)
     per_force[:-1] += np.sqrt(chain.springs[1:])
@@ -73,7 +74,7 @@ def start_of(run: Run) -> CarriedState:
         mode=np.where(chain.weights > 0.0, 0, FREE),
         velocity=np.array(run.start_velocities),
         spring_force=np.append(chain.springs * stretch, 0.0),
-        rounding=np.array([_UNIT * math.hypot(at_start, drive_momentum)]),
+        rounding=np.array([_UNIT * math.hypot(at_start, momentum, drive_momentum)]),
         springs=chain.springs,
         strength=chain.strength,
         friction=chain.kinetic_friction,

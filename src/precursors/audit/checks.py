@@ -10,14 +10,18 @@ from precursors.audit.carried import start_of
 from precursors.audit.conditions import pass_interval
 from precursors.audit.motion import normal_modes, rows_and_modes
 from precursors.audit.report import Audit
-from precursors.model.chain import FREE
+from precursors.model.chain import FREE, linear_weights
 from precursors.model.checks import positive
+from precursors.solver.record import arrays_of, out_of_range, wrong_shape
 from precursors.solver.run import Run
 from precursors.support.waiting import bar
 
 TIME_TOLERANCE = 1e-12
 """Of the duration: recorded times are rounded once a transition, the intervals are
 not."""
+
+THETA_TOLERANCE = 1e-12
+"""Of F_Z: weights and their sum are rounded."""
 
 MAX_PROBLEMS = 20
 """The audit stops at this many: what follows a wrong transition is wrong, and says
@@ -44,19 +48,16 @@ def audit_run(run: Run, roundings: float) -> Audit:
 
 def _malformed(run: Run) -> str:
     """Say why the arrays of a run cannot be audited at all, or nothing."""
-    n = len(run.transitions)
-    if len(run.intervals) != n + 1:
-        return (
-            f"{n} transitions need {n + 1} intervals, the run has {len(run.intervals)}"
-        )
-    if not np.all((run.intervals >= 0) & np.isfinite(run.intervals)):
-        return "an interval is negative or not finite"
-    block = run.transitions["block"]
-    mode = run.transitions["mode"]
-    is_wrong = (block < 1) | (block > run.chain.n_blocks) | (mode < -1) | (mode > 1)
-    for k in np.flatnonzero(is_wrong)[:1]:
-        return f"transition {k} has block {block[k]}, mode {mode[k]}: there is no such block or mode"
-    return ""
+    arrays = arrays_of(run)
+    if reason := wrong_shape(arrays) or out_of_range(arrays):
+        return reason
+    chain = run.chain
+    if math.isnan(chain.theta):
+        return ""
+    of_theta = linear_weights(chain.n_blocks, chain.normal_load, chain.theta)
+    if np.allclose(of_theta, chain.weights, 0, THETA_TOLERANCE * chain.normal_load):
+        return ""
+    return f"theta = {chain.theta:.6g} is not that of the weights"
 
 
 class Auditor:
@@ -78,14 +79,24 @@ class Auditor:
         intervals = self.run.intervals.tolist()
         instants = np.cumsum(intervals, dtype=np.longdouble).astype(float).tolist()
         transitions = [*self.run.transitions.tolist(), None]
+        after = self.run.states.after
+        stored = np.searchsorted(after, np.arange(len(transitions) + 1)).tolist()
         started = False
-        steps = zip(intervals, instants, transitions, strict=True)
+        rows = map(range, stored, stored[1:])
+        steps = zip(intervals, instants, transitions, rows, strict=True)
         told = bar("auditing", len(intervals), steps)
-        for duration, instant, transition in told:
+        for duration, instant, transition, states in told:
             if not started and (duration > 0 or transition is None):
                 started = True
                 self.check_start()
-            if duration > 0 and not self.pass_interval(duration):
+            passed = 0.0
+            for row in states:
+                offset = self.run.states.offset[row]
+                if not self.slide(offset - passed):
+                    return
+                self.check_state(row)
+                passed = offset
+            if not self.slide(duration - passed):
                 return
             self.time = instant
             found.n_intervals += 1
@@ -96,9 +107,11 @@ class Auditor:
                 self.check_transition(not started, *transition)
         self.check_time(self.run.duration, "the duration")
 
-    def pass_interval(self, duration: float) -> bool:
-        """Check Coulomb's law inside an interval and move the state to its end; False
-        if that takes too much work."""
+    def slide(self, duration: float) -> bool:
+        """Check Coulomb's law between transitions and move the state on; False if that
+        takes too much work."""
+        if duration == 0:
+            return True
         state = self.state
         rows, modes = rows_and_modes(state.moves(), self.modes_of_row)
         passed = pass_interval(
@@ -117,7 +130,32 @@ class Auditor:
             what, unit = passed.broken(j, state.mode)
             when = self.time + passed.when[j]
             self.check(-passed.lowest[j], passed.rounding[j], what, unit, when)
+        self.time += duration
         return True
+
+    def check_state(self, row: int) -> None:
+        """A stored state is the one that is reached."""
+        state = self.state
+        stored = self.run.states
+        if (stored.mode[row] != state.mode).any():
+            self.report(f"stored state {row} has other modes than the blocks")
+        per_speed = np.full(len(state.velocity), 1.0 / math.sqrt(state.mass))
+        for what, unit, wrong, per in (
+            (
+                "force",
+                "N",
+                stored.force[row] - state.spring_force[:-1],
+                np.sqrt(state.springs),
+            ),
+            ("velocity", "m/s", stored.velocity[row] - state.velocity, per_speed),
+        ):
+            i = int(np.argmax(abs(wrong) / per))
+            self.check(
+                abs(wrong[i]),
+                state.rounding[0] * per[i],
+                f"stored state {row} has a {what} of block {i + 1} that is wrong by",
+                unit,
+            )
 
     def check_transition(
         self, at_start: bool, time: float, block: int, mode: int, load: float

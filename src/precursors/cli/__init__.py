@@ -8,6 +8,7 @@ import os
 import sys
 import warnings
 from collections.abc import Sequence
+from io import TextIOWrapper
 
 from precursors.cli.options import WRONG_USE, read_options
 from precursors.support.files import check_writable
@@ -30,6 +31,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     error."""
     # Starting threads costs more than any matrix here.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    if isinstance(sys.stdout, TextIOWrapper):  # a terminal may not have all letters
+        sys.stdout.reconfigure(errors="backslashreplace")
     warnings.formatwarning = lambda message, *_: f"precursors: {message}\n"
     arguments = read_options(sys.argv[1:] if argv is None else argv)
     try:

@@ -29,7 +29,8 @@ from precursors.model.chain import (
     theta_from_load_cells,
 )
 from precursors.solver.run import Record, Run, RunFileError
-from precursors.support.checkout import git_state
+from precursors.solver.run_file import has_checksum
+from precursors.support.checkout import built_state, git_state
 from precursors.support.files import write_table
 from precursors.support.measured import read_profile, read_weights
 
@@ -163,6 +164,10 @@ def audit(arguments: Namespace) -> None:
                 f"{path}: a motion of the model, "
                 f"{several(len(run.transitions), 'transition')} in {run.duration:g} s"
             )
+            if not has_checksum(path):
+                tell(
+                    f"{path} has no checksum, as it is older: the length of its contact is not checked"
+                )
         else:
             is_not = "undecided" if report.is_undecided else "not a motion of the model"
             wrong.append(f"{path}: {is_not}: {report.problems[0]}")
@@ -183,14 +188,17 @@ def score(arguments: Namespace) -> None:
 
 
 def version(_: Namespace) -> None:
-    """Print the version, and in a checkout the commit and its software hash
+    """Print the version, and the commit of the checkout or wheel and its software hash
     identifiers."""
     print(f"precursors {installed_version('precursors')}")
-    if state := git_state(Path(__file__).parents[3]):
-        print(
-            f"commit {state['commit']}{', and files have changed since' if state['changed'] else ''}"
-        )
-        print(state["swh_revision"], state["swh_directory"], sep="\n")
+    state = git_state(Path(__file__).parents[3]) or built_state()
+    if not state:
+        print("commit unknown: it was built without git")
+        return
+    print(
+        f"commit {state['commit']}{', and files have changed since' if state['changed'] else ''}"
+    )
+    print(state["swh_revision"], state["swh_directory"], sep="\n")
 
 
 def run_of(arguments: Namespace) -> Record:

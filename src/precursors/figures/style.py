@@ -148,6 +148,11 @@ class Page(Figure):
         with matplotlib.style.context(self.look.settings, after_reset=True):
             super().draw(renderer)
 
+    def savefig(self, *args: Any, **options: Any) -> None:
+        """Write it, without settings of the user's."""
+        with matplotlib.style.context(self.look.settings, after_reset=True):
+            super().savefig(*args, **options)
+
     def _repr_png_(self) -> bytes:
         buffer = BytesIO()
         self.savefig(buffer, dpi=SCREEN_DPI)

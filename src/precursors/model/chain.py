@@ -16,9 +16,9 @@ from precursors.model.checks import (
     LARGEST,
     MOST_BLOCKS,
     SMALLEST,
+    block_array,
     not_negative,
     number,
-    number_array,
     positive,
     whole,
 )
@@ -356,7 +356,7 @@ def _must_agree(name: str, given: object, *allowed: object) -> None:
 
 
 def _weights(values: ArrayLike) -> FloatArray:
-    weights = number_array("weights", values, "N")
+    weights = block_array("weights", values, "N")
     if weights.ndim != 1 or not 1 <= weights.size <= MOST_BLOCKS:
         raise ValueError(
             f"weights must be one number [N] a block, at most {MOST_BLOCKS}, but have shape {weights.shape}"

@@ -4,10 +4,10 @@ parameter."""
 import math
 from contextlib import suppress
 from numbers import Integral, Real
-from typing import Any, Literal
+from typing import Any, Literal, TypeGuard
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 # Where a run ends before its duration is over.
 Until = Literal["global slip"] | None
@@ -16,11 +16,12 @@ Until = Literal["global slip"] | None
 SMALLEST = 1e-60
 LARGEST = 1e60
 MOST_BLOCKS = 100_000
+LONGEST_SHOWN = 100  # characters of an array in a message
 
 
 def number(name: str, value: object, unit: str) -> float:
     """Return a finite float, or raise a ValueError that names the parameter."""
-    if isinstance(value, Real) and not isinstance(value, bool):
+    if is_number(value):
         with suppress(OverflowError):
             if math.isfinite(result := float(value)):
                 return result
@@ -30,15 +31,53 @@ def number(name: str, value: object, unit: str) -> float:
     raise ValueError(f"{name} must be {kind} [{unit}], but is {value!r}")
 
 
-def number_array(name: str, values: ArrayLike, unit: str) -> NDArray[np.float64]:
-    """Return a new array of floats, or raise a ValueError that names the parameter."""
+def is_number(value: object) -> TypeGuard[Real]:
+    """Whether a value is a real number by its type, as booleans and texts are not."""
+    return isinstance(value, Real) and not isinstance(value, bool)
+
+
+def number_array(name: str, values: Any, unit: str) -> NDArray[np.float64]:
+    """Return a new array of floats, or raise a ValueError that names the parameter.
+
+    They are numbers by their type, without a mask or a unit of their own.
+    """
+    wanted = f"{name} must be numbers [{unit}]"
+    if isinstance(values, (list, tuple)):
+        for i, value in enumerate(values):
+            if isinstance(value, (list, tuple, np.ndarray)):
+                number_array(f"{name}[{i}]", value, unit)
+            elif not is_number(value):
+                number(f"{name}[{i}]", value, unit)
+    elif hasattr(values, "units") or hasattr(values, "unit"):
+        raise ValueError(
+            f"{wanted} without a unit of their own, but are {_shown(values)}: "
+            "convert them, and hand over their magnitude"
+        )
+    elif np.ma.isMaskedArray(values):
+        raise ValueError(f"{wanted} without a mask, but are {_shown(values)}")
+    elif np.asarray(values).dtype.kind not in "iuf":
+        raise ValueError(f"{wanted}, but are {_shown(values)}")
     with suppress(TypeError, ValueError, OverflowError):
-        array = np.asarray(values)
-        if array.dtype.kind in "iufO" and not np.ma.isMaskedArray(values):
-            return np.array(array, dtype=np.float64)
-    raise ValueError(
-        f"{name} must be numbers [{unit}], but are {' '.join(repr(values).split())}"
-    )
+        return np.array(values, dtype=np.float64)
+    raise ValueError(f"{wanted}, but are {_shown(values)}")
+
+
+def block_array(name: str, values: Any, unit: str) -> NDArray[np.float64]:
+    """Return a new array of floats along the chain, or raise a ValueError, also of a
+    pandas Series whose index is not in order."""
+    index: Any = getattr(values, "index", None)
+    if not getattr(index, "is_monotonic_increasing", True):
+        raise ValueError(
+            f"{name} must be in the order of the blocks, but their index is "
+            f"{_shown(list(index))}: sort_index() sorts them, to_numpy() drops it"
+        )
+    return number_array(name, values, unit)
+
+
+def _shown(values: object) -> str:
+    """The beginning of an array, on one line."""
+    text = " ".join(repr(values).split())
+    return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]} ..."
 
 
 def positive(name: str, value: object, unit: str) -> float:

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from precursors.model.checks import number_array
+from precursors.model.checks import block_array
 
 # A position that was converted may be this share beyond the end of the slider.
 ROUNDING = 1e-12
@@ -22,7 +22,7 @@ def shares_of_profile(
     ValueError
         If the profile is below 0 or all 0, or positions do not rise on the slider.
     """
-    cells = number_array("profile", profile, "any unit")
+    cells = block_array("profile", profile, "any unit")
     if cells.ndim not in (1, 2) or not (
         np.isfinite(cells).all() and cells.min(initial=0) >= 0 < cells.sum()
     ):
@@ -47,7 +47,7 @@ def _integral(
 ) -> NDArray[np.float64]:
     """Integral of the straight lines between the points of a profile, from 0 to each
     edge [m]; outside the points it has the end values."""
-    x = number_array("positions", positions, "m")
+    x = block_array("positions", positions, "m")
     if x.shape != profile.shape or len(x) < 2 or not (np.diff(x) > 0).all():
         raise ValueError(
             "positions must rise, one for each value of the profile, at least two, but "

@@ -23,6 +23,7 @@ from precursors.support.waiting import in_threads
 # together.
 LARGEST_BATCH = 64
 BATCHES_PER_THREAD = 8
+MOST_THREADS = 1024
 
 
 def simulate_many(
@@ -42,8 +43,8 @@ def simulate_many(
     duration, until
         As in `simulate`, for all of them.
     threads : int, optional
-        Threads to use; by default as many as Numba takes, one for each core of this
-        process.
+        Threads to use, at most 1024; by default as many as Numba takes, one for each
+        core of this process.
     start_positions, start_velocities : sequence of array_like, optional
         One start for each chain, as in `simulate`.
 
@@ -63,7 +64,7 @@ def simulate_many(
     threads = (
         untyped.config.NUMBA_NUM_THREADS
         if threads is None
-        else whole("threads", threads)
+        else whole("threads", threads, MOST_THREADS)
     )
     positions = _starts("start_positions", start_positions, "m", chains)
     velocities = _starts("start_velocities", start_velocities, "m/s", chains)

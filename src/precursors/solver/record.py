@@ -1,13 +1,15 @@
-"""Types of a record: transitions, and the states stored between them."""
+"""Types of a record: transitions, the states stored between them, and what all of its
+arrays must be."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Mapping
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.model.chain import FloatArray
+from precursors.model.chain import FREE, FloatArray
 
 IntArray = NDArray[np.int64]
 
@@ -41,3 +43,96 @@ class States(NamedTuple):
             after=rows[:, 0].astype(np.int64),
             offset=rows[:, 1].copy(),
         )
+
+
+class Dataset(NamedTuple):
+    """What an array of a record must be: its unit, type, and shape, in which equal
+    names stand for equal lengths."""
+
+    unit: str
+    type: str
+    shape: tuple[str, ...]
+
+
+# The arrays of a record and of its chain, by their names in a file.
+DATASETS = {
+    "weights": Dataset("N", "f8", ("blocks",)),
+    "intervals": Dataset("s", "f8", ("intervals",)),
+    "transitions/time": Dataset("s", "f8", ("transitions",)),
+    "transitions/block": Dataset("1", "i4", ("transitions",)),
+    "transitions/mode": Dataset("1", "i1", ("transitions",)),
+    "transitions/tangential_load": Dataset("N", "f8", ("transitions",)),
+    "start_positions": Dataset("m", "f8", ("blocks",)),
+    "start_velocities": Dataset("m/s", "f8", ("blocks",)),
+    "states/force": Dataset("N", "f8", ("states", "blocks")),
+    "states/velocity": Dataset("m/s", "f8", ("states", "blocks")),
+    "states/mode": Dataset("1", "i8", ("states", "blocks")),
+    "states/after": Dataset("1", "i8", ("states",)),
+    "states/offset": Dataset("s", "f8", ("states",)),
+}
+
+
+def arrays_of(record: Any) -> dict[str, NDArray[Any]]:
+    """The arrays of a record, or of a run, and of its chain, by their names in
+    `DATASETS`."""
+    arrays = {"weights": record.chain.weights, "intervals": record.intervals}
+    arrays |= {f"transitions/{name}": record.transitions[name] for name in COLUMNS}
+    if hasattr(record, "states"):
+        arrays["start_positions"] = record.start_positions
+        arrays["start_velocities"] = record.start_velocities
+        states = record.states._asdict()
+        arrays |= {f"states/{name}": values for name, values in states.items()}
+    return arrays
+
+
+def wrong_shape(arrays: Mapping[str, Any]) -> str:
+    """Say which array, in memory or in a file, is of another type, or has a shape that
+    does not fit the others, or nothing."""
+    lengths: dict[str, int] = {}
+    for name, array in arrays.items():
+        dataset = DATASETS[name]
+        if array.dtype != dataset.type:
+            return f"{name} is of type {array.dtype} and not {np.dtype(dataset.type)}"
+        fits = len(array.shape) == len(dataset.shape) and all(
+            lengths.setdefault(axis, length) == length
+            for axis, length in zip(dataset.shape, array.shape, strict=True)
+        )
+        if not fits:
+            wanted = [lengths.get(axis, axis) for axis in dataset.shape]
+            return f"{name} has the shape {array.shape} and not {tuple(wanted)}"
+    n = lengths["transitions"]
+    if lengths["intervals"] != n + 1:
+        return f"{n} transitions need {n + 1} intervals, the run has {lengths['intervals']}"
+    return ""
+
+
+def out_of_range(arrays: Mapping[str, NDArray[Any]]) -> str:
+    """Say which block, mode, interval or stored state cannot be, or nothing; the shapes
+    are right."""
+    intervals = arrays["intervals"]
+    if not np.all((intervals >= 0) & np.isfinite(intervals)):
+        return "an interval is negative or not finite"
+    block = arrays["transitions/block"]
+    mode = arrays["transitions/mode"]
+    is_wrong = (block < 1) | (block > len(arrays["weights"]))
+    is_wrong |= (mode < -1) | (mode > 1)
+    for k in np.flatnonzero(is_wrong)[:1]:
+        return f"transition {k} has block {block[k]}, mode {mode[k]}: there is no such block or mode"
+    if "states/after" not in arrays:
+        return ""
+    after = arrays["states/after"]
+    offset = arrays["states/offset"]
+    if not (len(after) and after[0] == offset[0] == 0):
+        return "the first stored state is not that of the start"
+    is_wrong = (after < 0) | (after > len(block))
+    is_wrong |= ~((offset >= 0) & (offset <= intervals[np.where(is_wrong, 0, after)]))
+    is_wrong[1:] |= np.diff(after) < 0
+    is_wrong[1:] |= (np.diff(after) == 0) & (np.diff(offset) < 0)
+    modes = arrays["states/mode"]
+    is_wrong |= ((modes < -1) | (modes > FREE)).any(axis=1)
+    for row in np.flatnonzero(is_wrong)[:1]:
+        return (
+            f"stored state {row}, {offset[row]:.6g} s after transition {after[row]}, "
+            "is at no such time or has no such mode"
+        )
+    return ""

@@ -65,7 +65,14 @@ class Record:
         transitions = np.empty(np.size(time), dtype=TRANSITION)
         columns = (time, block, mode, tangential_load)
         for name, column in zip(COLUMNS, columns, strict=True):
-            transitions[name] = column
+            values = np.asarray(column)
+            with np.errstate(invalid="ignore"):
+                transitions[name] = values
+            is_other = transitions[name] != values
+            if name in ("block", "mode") and is_other.any():
+                raise ValueError(
+                    f"{name} must be of type {transitions.dtype[name]}, but one is {values[is_other][0]}"
+                )
         if intervals is None:
             instants = np.concatenate([[0.0], transitions["time"], [duration]])
             intervals = np.diff(instants)

@@ -1,10 +1,12 @@
-"""The HDF5 file of a record or run, whose checksums are checked when it is read."""
+"""The HDF5 file of a record or run, which is checked whole when it is read."""
 
 from __future__ import annotations
 
-import math
+import hashlib
+from collections.abc import Iterable, Mapping
 from importlib.metadata import version
 from io import BytesIO
+from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +14,14 @@ import numpy as np
 
 from precursors.model.chain import ARGUMENTS, Chain, remember_theta
 from precursors.model.checks import not_negative
-from precursors.solver.record import COLUMNS, States
+from precursors.solver.record import (
+    COLUMNS,
+    DATASETS,
+    States,
+    arrays_of,
+    out_of_range,
+    wrong_shape,
+)
 from precursors.support.files import AnyPath, write_whole
 
 if TYPE_CHECKING:
@@ -20,23 +29,14 @@ if TYPE_CHECKING:
 
     from precursors.solver.run import Record
 
-FORMAT = "precursors run 6"
+FORMAT = "precursors run 7"
+WITHOUT_CHECKSUM = "precursors run 6"  # else the same
+TEXTS = ["format", "precursors", "numpy", "duration_unit"]
 LAST_LARGER = "88883c9"  # the last commit with friction that falls, and viscosity
-UNITS = {
-    "time": "s",
-    "block": "1",
-    "mode": "1",
-    "tangential_load": "N",
-    "intervals": "s",
-    "start_positions": "m",
-    "start_velocities": "m/s",
-    "force": "N",
-    "velocity": "m/s",
-    "after": "1",
-    "offset": "s",
-    "weights": "N",
-}
 SCALARS = ARGUMENTS[1:]
+GROUPS = ("transitions", "states")
+# Bytes of an array over those that the file has of it: gzip makes at most 1032 of one.
+MOST_COMPRESSED = 1100
 
 
 class RunFileError(ValueError):
@@ -47,43 +47,52 @@ def write_record(record: Record, path: AnyPath) -> None:
     """Write a record or run to an HDF5 file, whole or not at all."""
     import h5py  # slow, and needed for files only
 
-    chain = record.chain
-    texts = {
+    attributes: dict[str, Any] = {
         "format": FORMAT,
         "precursors": version("precursors"),
         "numpy": np.__version__,
         "duration_unit": "s",
+        **{name: getattr(record.chain, name) for name in [*SCALARS, "theta"]},
+        **{name: x for name, x in vars(record).items() if isinstance(x, Real)},
     }
-    scalars = {name: getattr(chain, name) for name in [*SCALARS, "theta"]}
-    datasets = {"weights": chain.weights}
-    for name, value in vars(record).items():
-        if name == "transitions":
-            datasets |= {f"transitions/{column}": value[column] for column in COLUMNS}
-        elif name == "states":
-            datasets |= {
-                f"states/{column}": of for column, of in value._asdict().items()
-            }
-        elif isinstance(value, np.ndarray):
-            datasets[name] = value
-        elif name != "chain":
-            scalars[name] = value
+    # Of a fixed length: HDF5 has checksums for all but the texts that have none, and
+    # may hang in these.
+    attributes = {
+        name: np.bytes_(value.encode()) if isinstance(value, str) else value
+        for name, value in attributes.items()
+    }
+    arrays = arrays_of(record)
+    attributes["checksum"] = checksum(attributes, arrays)
 
     # HDF5 may end the interpreter when the disk is full, so the file is made in memory
     # first.
     memory = BytesIO()
     with h5py.File(memory, "w", libver="v110") as file:
-        # Of a fixed length: HDF5 has checksums for all but the texts that have none,
-        # and may hang in these.
-        file.attrs.update(
-            {name: np.bytes_(text.encode()) for name, text in texts.items()}
-        )
-        file.attrs.update(scalars)
-        for name, values in datasets.items():
+        file.attrs.update(attributes)
+        for name, values in arrays.items():
             data = file.create_dataset(
                 name, data=values, compression="gzip", shuffle=True, fletcher32=True
             )
-            data.attrs["unit"] = np.bytes_(UNITS[name.split("/")[-1]])
+            data.attrs["unit"] = np.bytes_(DATASETS[name].unit.encode())
     write_whole(path, memory.getvalue())
+
+
+def checksum(attributes: Mapping[str, Any], arrays: Mapping[str, Any]) -> np.bytes_:
+    """SHA-256 of the names, types, shapes and values of all that a file holds."""
+    digest = hashlib.sha256()
+    for name, values in sorted({**attributes, **arrays}.items()):
+        array = np.asarray(values)
+        digest.update(f"{name} {array.dtype.str} {array.shape} ".encode())
+        digest.update(array.tobytes())
+    return np.bytes_(digest.hexdigest().encode())
+
+
+def has_checksum(path: AnyPath) -> bool:
+    """Whether a run file has one; those of the first releases have none."""
+    import h5py
+
+    with h5py.File(BytesIO(Path(path).read_bytes()), "r") as file:
+        return "checksum" in file.attrs
 
 
 def read_record(path: AnyPath) -> dict[str, Any]:
@@ -95,12 +104,10 @@ def read_record(path: AnyPath) -> dict[str, Any]:
         raise FileNotFoundError(
             f"{path} is not a file" if Path(path).exists() else f"{path}: no such file"
         )
-    # HDF5 asks for locks, which a file system may not have; nor are links followed.
+    # HDF5 asks for locks, which a file system may not have.
     memory = BytesIO(Path(path).read_bytes())
     try:
         with h5py.File(memory, "r") as file:
-            if _text(file, "format") != FORMAT:
-                raise ValueError(f"its format is not {FORMAT!r}, which is read here")
             if "load_points" in file:
                 raise RunFileError(
                     f"{path} is a run of a larger chain, which commit {LAST_LARGER} was "
@@ -118,27 +125,83 @@ def read_record(path: AnyPath) -> dict[str, Any]:
 
 def _content(file: h5py.File) -> dict[str, Any]:
     """Columns and further attributes of the record in a file."""
-    names = ["weights", "intervals", *(f"transitions/{name}" for name in COLUMNS)]
-    if "states" in file:
-        names += ["start_positions", "start_velocities"]
-        names += [f"states/{name}" for name in States._fields]
-    found = {name: np.array(file[name]) for name in names}
-    scalars = {name: float(file.attrs[name]) for name in SCALARS}
-    duration = not_negative("duration", float(file.attrs["duration"]), "s")
-    chain = Chain(weights=found.pop("weights"), **scalars)
-    theta = float(file.attrs["theta"])
-    if not math.isnan(theta):
+    attributes = _attributes(file)
+    form = bytes(attributes.get("format", b"")).decode()
+    if form not in (FORMAT, WITHOUT_CHECKSUM):
+        raise ValueError(f"its format is not {FORMAT!r}, which is read here")
+    stored = _datasets(file)
+    datasets = ["weights", "intervals", *(f"transitions/{name}" for name in COLUMNS)]
+    wanted = [*TEXTS, *SCALARS, "theta", "duration"]
+    if "states/after" in stored:
+        datasets = list(DATASETS)
+        wanted.append("evaluations")
+    if form == FORMAT:
+        wanted.append("checksum")
+    _check_names("dataset", stored, datasets)
+    _check_names("attribute", attributes, wanted)
+    if reason := wrong_shape(stored):
+        raise ValueError(reason)
+
+    arrays = {name: stored[name][()] for name in datasets}
+    told = attributes.pop("checksum", None)
+    if told is not None and told != checksum(attributes, arrays):
+        raise ValueError("its content is not that of its checksum")
+    if reason := out_of_range(arrays):
+        raise ValueError(reason)
+    scalars = {name: attributes[name] for name in SCALARS}
+    chain = Chain(weights=arrays.pop("weights"), **scalars)
+    theta = attributes["theta"]
+    if theta == theta:  # else it is NaN, not known
         remember_theta(chain, theta)
-    content: dict[str, Any] = {"chain": chain, "duration": duration}
-    content |= {name: found.pop(f"transitions/{name}") for name in COLUMNS}
-    if "states/after" in found:
-        states = [found.pop(f"states/{name}") for name in States._fields]
+    content: dict[str, Any] = {"chain": chain}
+    content["duration"] = not_negative("duration", attributes["duration"], "s")
+    content |= {name: arrays.pop(f"transitions/{name}") for name in COLUMNS}
+    if "states/after" in arrays:
+        states = [arrays.pop(f"states/{name}") for name in States._fields]
         content["states"] = States(*states)
-        content["evaluations"] = float(file.attrs["evaluations"])
-    return content | found
+        evaluations = not_negative("evaluations", attributes["evaluations"], "1")
+        content["evaluations"] = evaluations
+    return content | arrays
 
 
-def _text(file: h5py.File, name: str) -> str:
-    """A text of fixed length, or nothing."""
-    is_fixed = name in file.attrs and file.attrs.get_id(name).dtype.kind == "S"
-    return bytes(file.attrs[name]).decode() if is_fixed else ""
+def _attributes(of: h5py.HLObject) -> dict[str, Any]:
+    """Numbers and texts of fixed length; nothing else is read."""
+    for name in of.attrs:
+        stored = of.attrs.get_id(name)
+        if stored.shape != () or stored.dtype.kind not in "Siuf":
+            raise ValueError(f"its attribute {name} is no number or text")
+    return dict(of.attrs)
+
+
+def _datasets(group: h5py.Group, path: str = "") -> dict[str, h5py.Dataset]:
+    """Datasets of the file itself by name, none of which is read."""
+    import h5py
+
+    found: dict[str, h5py.Dataset] = {}
+    for key in group:
+        name = path + key
+        if not isinstance(group.get(key, getlink=True), h5py.HardLink):
+            raise ValueError(f"{name} is a link")
+        item = group[key]
+        attributes = {}
+        if name in GROUPS and isinstance(item, h5py.Group):
+            found |= _datasets(item, f"{name}/")
+        elif name not in DATASETS or not isinstance(item, h5py.Dataset):
+            raise ValueError(f"{name} is not a dataset of a run")
+        elif item.is_virtual or item.external:
+            raise ValueError(f"{name} is stored in another file")
+        elif item.nbytes > MOST_COMPRESSED * item.id.get_storage_size():
+            raise ValueError(f"{name} is not stored whole")
+        else:
+            attributes = {"unit": DATASETS[name].unit.encode()}
+            found[name] = item
+        if _attributes(item) != attributes:
+            raise ValueError(f"the attributes of {name} are not {attributes}")
+    return found
+
+
+def _check_names(kind: str, given: Iterable[str], wanted: Iterable[str]) -> None:
+    """Refuse names that are missing or not known."""
+    for name in sorted(set(given) ^ set(wanted)):
+        what = "missing" if name in wanted else "not one of a run"
+        raise ValueError(f"its {kind} {name} is {what}")

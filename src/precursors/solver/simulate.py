@@ -11,8 +11,8 @@ from precursors.model.chain import Chain, FloatArray
 from precursors.model.checks import (
     LARGEST,
     Until,
+    block_array,
     checked_span,
-    number_array,
     whole,
 )
 from precursors.solver.batch import TransitionLimitError, run_batch
@@ -100,7 +100,7 @@ def checked_start(
     """Check positions or velocities at the start; zero by default."""
     if values is None:
         return np.zeros(chain.n_blocks)
-    start = number_array(name, values, unit)
+    start = block_array(name, values, unit)
     if start.shape != (chain.n_blocks,):
         raise ValueError(
             f"{name} must have shape ({chain.n_blocks},), one [{unit}] a block, but have {start.shape}"

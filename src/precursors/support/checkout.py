@@ -1,8 +1,12 @@
 """The commit of the sources."""
 
+import json
 import subprocess
 import warnings
+from importlib.metadata import distribution
 from pathlib import Path
+
+COMMIT_FILE = "commit.json"  # what `git_state` said when the wheel was built
 
 
 def git_state(root: Path) -> dict[str, str | bool] | None:
@@ -22,6 +26,14 @@ def git_state(root: Path) -> dict[str, str | bool] | None:
         "swh_directory": f"swh:1:dir:{tree}",
         "changed": bool(_git(root, "status", "--porcelain")),
     }
+
+
+def built_state() -> dict[str, str | bool] | None:
+    """The same of the sources that the installed wheel was built from; None where it
+    does not say."""
+    text = distribution("precursors").read_text(f"extra_metadata/{COMMIT_FILE}")
+    state: dict[str, str | bool] | None = json.loads(text) if text else None
+    return state
 
 
 def _git(root: Path, *command: str) -> str:

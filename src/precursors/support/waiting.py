@@ -28,11 +28,12 @@ def bar(work: str, total: float, steps: Iterable[Any] | None = None) -> Any:
 
 
 def in_threads(tasks: Sequence[Callable[[], Result]], threads: int = 1) -> list[Result]:
-    """Run tasks that release the GIL in threads, and say how many are done.
+    """Run tasks that release the GIL in threads, no more than there are tasks, and say
+    how many are done.
 
     After Ctrl-C or an error no task is started, and running ones are not waited for.
     """
     # Its threads are daemons, for which nobody waits at the end, unlike those of
     # concurrent.futures.
-    with ThreadPool(threads) as pool:
+    with ThreadPool(max(1, min(threads, len(tasks)))) as pool:
         return list(bar("running", len(tasks), pool.imap(lambda task: task(), tasks)))
