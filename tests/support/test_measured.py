@@ -112,6 +112,7 @@ def test_a_table_of_pandas_goes_by_the_same_rules():
     for wrong, about in (
         (frame.rename(columns={"t [s]": "Zeit [s]"}), 'as in "t=Zeit'),
         (frame.replace(0.5, np.nan), "row 2: 'nan' is not a number"),
+        (frame[:0], "there are no numbers"),
     ):
         with pytest.raises(ValueError, match=about):
             curve(wrong)

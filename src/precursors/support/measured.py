@@ -61,6 +61,7 @@ COMMENT = re.compile(r"\s*[#%]")
 # What a spreadsheet writes where a formula fails, as #N/A, is no comment.
 FAILED = re.compile(r"\s*#[^\W\d_a-z][^\s;,a-z]*\s*([;,\t]|$)")
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d{1,3})?", re.ASCII)
+BEGINS = re.compile(r"[-+.,]?\d")  # a number, even if more stands in its cell
 NAME_AND_UNIT = re.compile(r"(.*?)\s*[\[(]\s*([^\[\]()]*?)\s*[\])]")
 ROUNDING = 1e-12  # by which a share that is computed may be above 1
 
@@ -96,6 +97,8 @@ class Table(NamedTuple):
         ValueError
             If a column is not certain, or a row is not whole.
         """
+        if not self.rows:
+            raise ValueError("there are no numbers")
         # A column alone needs no name.
         names = self.names or [str(needed[0]) if len(needed) == 1 else ""]
         matches = [(q, _match(q, names, choice.get(q.symbol, ""))) for q in needed]
@@ -145,7 +148,7 @@ class Table(NamedTuple):
         return np.array(values)
 
     def _check_that_numbers_are_below(self) -> None:
-        begins = [bool(row) and _is_value(row[0][:1] + "0") for row in self.rows]
+        begins = [bool(row and BEGINS.match(row[0])) for row in self.rows]
         if self.separator and True in begins[1:] and not begins[0]:
             line = self.lines[begins.index(True, 1) - 1]
             raise ValueError(
@@ -194,8 +197,6 @@ def read_table(source: AnyPath | pd.DataFrame, header_line: int | None = None) -
         return Table([], [*below], [names, *rows], separator)
     for cell in filter(_is_value, names):
         raise ValueError(f"line {first}: {cell!r} is no name; all columns need names")
-    if not rows:
-        raise ValueError("there are no numbers")
     return Table(names, [*below][1:], rows, separator)
 
 
