@@ -11,7 +11,7 @@ ON_DEMAND = {"certify_scene", "prove_again", "write_provenance"}
 # The paper shows nearly all tables and figures, and is set again when one of them may
 # change.
 PAPER = {"write_paper"}
-LISTS_OF_SCENES = {"mu_sapp", "judge_claims", "write_explorer"} | PAPER
+LISTS_OF_SCENES = {"mu_sapp", "judge_claims"} | PAPER
 CODE = "\nADDED = 1\n"  # to a module
 
 

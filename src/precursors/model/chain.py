@@ -19,6 +19,7 @@ from precursors.model.checks import (
     block_array,
     not_negative,
     number,
+    number_array,
     positive,
     whole,
 )
