@@ -19,7 +19,6 @@ from precursors.model.checks import (
     block_array,
     not_negative,
     number,
-    number_array,
     positive,
     whole,
 )
