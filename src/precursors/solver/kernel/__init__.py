@@ -42,7 +42,6 @@ for a group of four.
 from precursors.solver.kernel.arrays import (
     PROGRESS,
     ROW,
-    WORDS,
     Batch,
     End,
     memory_for,
