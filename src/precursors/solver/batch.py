@@ -136,6 +136,8 @@ def _runs(
         )
         if status == kernel.PAUSED:
             raise _unfinished(run, end)
+        if kernel.is_compiled_now():
+            run.at(0.0)
         yield run
         row = end_row + 1
         state = end_state

@@ -66,10 +66,10 @@ class End(NamedTuple):
 
 # Where a run is: tau [s]; time of the event's onset in two doubles [s], time since then
 # and since the last transition [tau]; numbers of transitions, moving blocks, those of
-# them without load and those whose load counts, stored states, transitions between two
-# of these, windows, derivatives of single blocks, searches of a function and steps to
-# roots; whether all blocks whose load counts slid at once; how it ended; a block beyond
-# which none slides; windows on end in which time stood still.
+# them without load, blocks whose load counts, those of them that slide, stored states,
+# transitions between two of these, windows, derivatives of single blocks, searches of a
+# function and steps to roots; whether all blocks whose load counts slid at once; how it
+# ended; a block beyond which none slides; windows on end in which time stood still.
 PROGRESS = np.dtype(
     [(name, "f8") for name in ("tau", "onset", "onset_error", "elapsed", "since")]
     + [
@@ -78,7 +78,8 @@ PROGRESS = np.dtype(
             "transitions",
             "sliding",
             "free",
-            "counted",
+            "loaded",
+            "loaded_sliding",
             "stored",
             "stride",
             "windows",

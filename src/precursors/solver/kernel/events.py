@@ -3,8 +3,9 @@ record."""
 
 from numba import int64
 
-from precursors.model.chain import FREE
+from precursors.model.chain import FREE, LEAST_SHARE
 from precursors.solver.kernel.arrays import (
+    BEARS_LOAD,
     COUPLING,
     FORCE_REST,
     MODE,
@@ -110,12 +111,15 @@ def take_start(start, parameters, chain, motion, progress, record, states):
     positions, velocities, weights = start
     mass, stiffness, spring, _, _, _ = parameters
     stiffest = farthest = before = 0.0
+    least = LEAST_SHARE * weights.mean()
     for i in range(chain.n_blocks):
         stiffest = max(stiffest, spring)
         farthest = max(farthest, abs(positions[i]))
         motion[SPRING_FORCE, i + 1] = spring * (before - positions[i])
         motion[VELOCITY, i + 1] = velocities[i] * (mass / chain.tau)
         motion[MODE, i + 1] = 0 if weights[i] > 0.0 else FREE
+        motion[BEARS_LOAD, i + 1] = 1.0 if weights[i] >= least else 0.0
+        progress.loaded += 1 if weights[i] >= least else 0
         before = positions[i]
         spring = stiffness
     progress.tau = chain.tau
@@ -125,7 +129,7 @@ def take_start(start, parameters, chain, motion, progress, record, states):
         take_net_force(i, motion)
         if motion[MODE, i] == FREE:
             progress.free += 1
-            count_sliding(1, chain, progress)
+            count_sliding(1, i, motion, progress)
             take_mode(i, motion)
             continue
         # A position of size x is known to its rounding: a block at its limit to within
@@ -137,7 +141,7 @@ def take_start(start, parameters, chain, motion, progress, record, states):
         motion[MODE, i] = mode
         take_mode(i, motion)
         if mode != 0:
-            count_sliding(1, chain, progress)
+            count_sliding(1, i, motion, progress)
             note_transition(i, mode, motion[SPRING_FORCE, 1], progress, record)
     for i in range(1, chain.n_blocks + 1):
         take_neighbours(i, motion)
@@ -163,7 +167,10 @@ def find_transitions(chain, motion, end, limits, progress, record, states):
         if progress.transitions >= progress.stride * progress.stored:
             store_state(chain, motion, progress, states)
         no_event = progress.sliding == progress.free
-        if no_event and (progress.free == 0 or is_at_rest(chain, motion)):
+        after_global = progress.all_slid != 0 and progress.loaded_sliding == 0
+        if end.until_global and after_global:
+            status = STOPPED
+        elif no_event and (progress.free == 0 or is_at_rest(chain, motion)):
             status = rest(chain, motion, end, progress, record)
         else:
             status = slide(chain, motion, end, progress, record)
@@ -194,8 +201,6 @@ def time_left(end, progress):
 @part
 def rest(chain, motion, end, progress, record):
     """Nothing moves: end the run, or wait in closed form until block 1 lets go."""
-    if end.until_global and progress.all_slid != 0:
-        return STOPPED
     block_1 = int64(1)
     remaining = max(time_left(end, progress), 0.0)
     loading_rate = motion[COUPLING, 1] * chain.drive_velocity
@@ -210,7 +215,7 @@ def rest(chain, motion, end, progress, record):
     take_net_force(block_1, motion)
     start_clock(wait, progress)
     set_mode(block_1, block_1, chain, motion)
-    count_sliding(1, chain, progress)
+    count_sliding(1, block_1, motion, progress)
     note_transition(block_1, block_1, motion[SPRING_FORCE, 1], progress, record)
     return PAUSED
 
@@ -228,11 +233,13 @@ def start_clock(wait, progress):
 
 
 @inner
-def count_sliding(more, chain, progress):
-    """Count the blocks that slide, and note when all do."""
+def count_sliding(more, i, motion, progress):
+    """Count the blocks that slide, and note when all do whose load counts."""
     progress.sliding += more
-    if progress.sliding == chain.n_blocks:
-        progress.all_slid = 1
+    if motion[BEARS_LOAD, i] > 0.0:
+        progress.loaded_sliding += more
+        if progress.loaded_sliding == progress.loaded:
+            progress.all_slid = 1
 
 
 @part
@@ -260,8 +267,6 @@ def slide(chain, motion, end, progress, record):
     """Go through one window, to its first transition or to its end."""
     if progress.sliding == progress.free:
         # Only blocks without load move, which is no event.
-        if end.until_global and progress.all_slid != 0:
-            return STOPPED
         start_clock(0.0, progress)
     remaining = time_left(end, progress)
     if remaining <= 0.0:
@@ -287,7 +292,7 @@ def slide(chain, motion, end, progress, record):
     set_mode(i, new, chain, motion)
     progress.farthest = max(progress.farthest, i)
     if new != old:
-        count_sliding(abs(new) - abs(old), chain, progress)
+        count_sliding(abs(new) - abs(old), i, motion, progress)
         note_transition(i, new, motion[SPRING_FORCE, 1], progress, record)
     return PAUSED
 

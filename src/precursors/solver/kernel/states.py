@@ -13,7 +13,7 @@ from precursors.solver.kernel.arrays import (
     memory_for,
 )
 from precursors.solver.kernel.decorators import inner, outer, unfused
-from precursors.solver.kernel.events import last_column
+from precursors.solver.kernel.events import last_column, run_batch
 from precursors.solver.kernel.friction import (
     farthest_sliding,
     is_at_rest,
@@ -125,6 +125,12 @@ def copy(rows, into):
     for n in range(rows.shape[0]):
         for i in range(rows.shape[1]):
             into[n, i] = rows[n, i]
+
+
+def is_compiled_now() -> bool:
+    """Whether this process compiled the event loop, and not yet what looks into runs:
+    whoever waits for the one shall not wait for the other later."""
+    return bool(run_batch.stats.cache_misses) and not go_through.signatures
 
 
 @inner
