@@ -6,7 +6,8 @@ from typing import Any
 from precursors.support.compiled import entry, untyped
 
 _options: dict[str, Any] = {"error_model": "numpy"}
-# Python does not call these functions, so that Numba need not make them ready for it.
+# Numba need not make these functions ready for Python, which then must not call them:
+# it would crash. `py_func` is what they were made from.
 _within = {**_options, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 # Products may be fused with sums, but not in the event loop, in starts and in units.
 inner: Any = untyped.njit(**_within, fastmath={"contract"}, forceinline=True)
