@@ -9,7 +9,7 @@ import functools
 import operator
 
 from llvmlite import ir
-from numba.core import types
+from numba import types
 from numba.extending import (
     intrinsic,
     lower_builtin,
