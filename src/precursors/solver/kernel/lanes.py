@@ -7,6 +7,7 @@ of this type becomes one AVX register, or two of SSE or NEON.
 
 import functools
 import operator
+from typing import Any
 
 from llvmlite import ir
 from numba import types
@@ -111,20 +112,14 @@ def _group(context, builder, kind, arguments):
     return builder.bitcast(start, VECTOR.as_pointer())
 
 
-@intrinsic
-def load(typingctx, values, row, i):
-    """values[row, i : i + 4]."""
-
+def _load(typingctx, values, row, i):
     def generate(context, builder, signature, arguments):
         return builder.load(_group(context, builder, values, arguments), align=8)
 
     return four(values, types.intp, types.intp), generate
 
 
-@intrinsic
-def store(typingctx, values, row, i, a):
-    """values[row, i : i + 4] = a."""
-
+def _store(typingctx, values, row, i, a):
     def generate(context, builder, signature, arguments):
         builder.store(
             arguments[3], _group(context, builder, values, arguments), align=8
@@ -134,6 +129,9 @@ def store(typingctx, values, row, i, a):
     return types.void(values, types.intp, types.intp, four), generate
 
 
+# values[row, i : i + 4], and values[row, i : i + 4] = a.
+load: Any = intrinsic(_load)
+store: Any = intrinsic(_store)
 # One number in all lanes, or one in each.
 spread = _operation(lambda b, value: _pack(b, *WIDTH * [value]), four, types.float64)
 pack = _operation(
