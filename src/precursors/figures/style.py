@@ -53,6 +53,7 @@ COLUMN_MM = 85.0
 PAGE_MM = 178.0
 PNG_DPI = 300
 SCREEN_DPI = 120
+TICKS = 0.9  # size of their labels, in those of the text: 7 pt is the least in print
 
 MU_SAPP_LABEL = r"$\mu_\mathrm{sapp}$ [-]"
 DOTTED: Options = {"color": GREY, "linewidth": 0.6, "linestyle": ":", "zorder": 1}
@@ -65,8 +66,6 @@ _SETTINGS: Options = {
     "ytick.major.width": 0.6,
     "xtick.major.size": 3,
     "ytick.major.size": 3,
-    "xtick.labelsize": "small",
-    "ytick.labelsize": "small",
     "xtick.direction": "in",
     "ytick.direction": "in",
     "legend.frameon": False,
@@ -127,7 +126,11 @@ class Look:
     @property
     def settings(self) -> Options:
         """The settings of Matplotlib that follow."""
-        return _SETTINGS | {"font.size": self.font_size, "font.sans-serif": self.font}
+        settings = {"font.size": self.font_size, "font.sans-serif": self.font}
+        of_ticks = dict.fromkeys(
+            ["xtick.labelsize", "ytick.labelsize"], TICKS * self.font_size
+        )
+        return _SETTINGS | settings | of_ticks
 
 
 LOOK = Look()
