@@ -171,7 +171,7 @@ def test_docs_tell_how_fragile_the_numbers_are():
     sentence = "In none (below {} %) all six"
     assert_told(page, sentence, [share["high"]["all_six"]], DRAWS)
     caption = "workflow/report/hero.rst"
-    assert_told(caption, "coefficient of {} sliders", digits["n"][:1])
+    assert_told(caption, "of {} sliders", digits["n"][:1])
 
 
 def test_the_caption_of_the_wave_tells_where_precursors_stop():

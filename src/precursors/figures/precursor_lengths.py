@@ -14,7 +14,7 @@ from precursors.figures import style
 from precursors.figures.style import Options
 from precursors.model.chain import FloatArray
 
-HEIGHT_MM = 76.0
+HEIGHT_MM = 80.0
 LEGEND_MM = 8.0  # of an entry of the key, where one stands below the panel
 # Scenes that have no names in place have different outlines.
 OUTLINES = "osD^vh"
@@ -28,7 +28,8 @@ SHORT: Options = {
     "zorder": 1.5,
 }
 CARRIED: Options = {"linestyle": (0, (4, 3)), "linewidth": 0.8, "zorder": 1.2}
-CARRIED_TEXT = "dashed:\n" + r"$F_X = \mu_k W(L_p)$"
+CARRIED_TEXT = r"$F_X = \mu_k W(L_p)$"
+SHORT_TEXT = "short events, not counted"
 MEASURED: Options = {
     "color": style.MEASURED,
     "linestyle": "none",
@@ -41,12 +42,16 @@ MEASURED: Options = {
 NAMES: dict[int, tuple[str, float, str, tuple[float, float]]] = {
     -1: ("more load at the\ntrailing edge: {}", 0.0, "left", (28.0, -2.0)),
     0: ("uniform load:\n{} events", 0.0, "left", (-8.0, -4.0)),
-    1: ("more load at\nthe leading\nedge: {}", 0.65, "right", (-24.0, 14.0)),
+    1: ("more load at\nthe leading\nedge: {}", 0.65, "right", (-18.0, 16.0)),
 }
+# F_X/F_Z stands right of the first global slip, in lines that keep the scenes apart.
+LINE_PT = 9.0
+END_ROOM = 1.22  # of the axis of F_X, in times of the largest load
 # Shares of the largest load that keep the first two names apart, and that the third
 # needs to its left.
 APART = 0.1
 ROOM = 0.28
+FEW = 20  # events at most beside which a name has room
 
 
 def draw(
@@ -69,8 +74,8 @@ def draw(
     """
     if not ((data[:, 1] >= 0) & (data[:, 1] <= 1)).all():
         raise ValueError("measured lengths must be L_p/L, between 0 and 1")
-    has_key = len(data) > 0 or not _are_named_in_place(slips)
-    height_mm = HEIGHT_MM + LEGEND_MM * has_key * (1 + len(slips))
+    in_place = len(data) == 0 and _are_named_in_place(slips)
+    height_mm = HEIGHT_MM + LEGEND_MM * (0 if in_place else 1 + len(slips))
     with style.page(style.COLUMN_MM, height_mm, look) as figure:
         axes = figure.subplots()
         axes.set_title(style.plain(title), loc="left", wrap=True)
@@ -78,42 +83,46 @@ def draw(
             told = _beside(slips[0], data) if len(slips) == 1 else "measured"
             figure.set_label(told)
             axes.plot(*data.T, **MEASURED, label=told)
-        draw_lengths(axes, slips, weights)
-        if has_key:
-            style.draw_key(figure, ncols=1)
+        draw_lengths(axes, slips, weights, in_place)
+        style.draw_key(figure, ncols=2 if in_place else 1)
     return figure
 
 
 def draw_lengths(
-    axes: Axes, slips: Sequence[pd.DataFrame], weights: ArrayLike | None = None
+    axes: Axes,
+    slips: Sequence[pd.DataFrame],
+    weights: ArrayLike | None = None,
+    in_place: bool = True,
 ) -> None:
-    """Draw the events of Fig. 13 into a panel, with names along the curves.
+    """Draw the events of Fig. 13 into a panel, with names along the curves and F_X/F_Z
+    at their ends, or with entries of a key.
 
     Solid circles are theta < 0, circles with a dot theta = 0, and open circles theta >
     0. Small crosses are the short events, which Fig. 13 does not count. Dashed is the
     load at which kinetic friction carries all of the push up to a length.
     """
     slips = [table for table in slips if len(table)]
-    in_place = _are_named_in_place(slips)
     outlines = "o" * len(slips) if in_place else cycle(OUTLINES)
     for table, outline in zip(slips, outlines, strict=False):
-        points = _draw_events(axes, table, outline)
+        _draw_events(axes, table, outline, in_place)
         length, load = friction_carried(table.iloc[0], weights)
         axes.plot(load, length, **CARRIED, color=style.theta_color(_sign(table)))
         if in_place:
-            _name(axes, points, _sign(table))
+            _name(axes, table, is_alone=len(slips) == 1)
     # Measured loads, which are drawn before, may be below zero.
-    axes.set(xlim=(min(0.0, axes.dataLim.x0), None), ylim=(-0.09, 1.06))
+    right = END_ROOM * axes.dataLim.x1 if in_place else None
+    axes.set(xlim=(min(0.0, axes.dataLim.x0), right), ylim=(-0.09, 1.08))
     if slips:
         _add_coefficient(axes, pd.concat(slips))
     axes.set_xlabel("Tangential load $F_X$ [N]")
     axes.set_ylabel("Front length $L_p/L$ [-]")
-    if in_place and len(slips) > 1:
-        axes.text(0.84, 0.36, CARRIED_TEXT, transform=axes.transAxes, ha="right")
-    elif not in_place:
-        if weights is not None or any(table["theta"].notna().any() for table in slips):
-            axes.plot([], [], **CARRIED, color=style.GREY, label=CARRIED_TEXT)
-        axes.plot([], [], **SHORT, color=style.GREY, label="short events, not counted")
+    marks: dict[str, Options] = {}
+    if weights is not None or any(table["theta"].notna().any() for table in slips):
+        marks[CARRIED_TEXT] = CARRIED
+    if any(_is_short(table).any() for table in slips):
+        marks[SHORT_TEXT] = SHORT
+    for text, look in marks.items():
+        axes.plot([], [], **look, color=style.GREY, label=text)
 
 
 def friction_carried(
@@ -165,12 +174,16 @@ def _sign(table: pd.DataFrame) -> int:
 
 
 def _are_named_in_place(slips: Sequence[pd.DataFrame]) -> bool:
-    """Whether each scene has a theta, alone of its sign, a curve and a global slip, and
-    its name has room."""
+    """Whether there is one scene, or each has a theta, alone of its sign, a curve of few
+    events and a global slip, and its name has room."""
+    if len(slips) == 1:
+        return len(slips[0]) > 0
     at = {}
     for table in slips:
         counted = table[table["counted"]]
-        if len(counted) < 4 or not counted["is_global"].any() or table["theta"].hasnans:
+        if not (4 <= len(counted) <= FEW and counted["is_global"].any()):
+            return False
+        if table["theta"].hasnans:
             return False
         sign = _sign(table)
         loads = counted["load_before_N"]
@@ -182,15 +195,18 @@ def _are_named_in_place(slips: Sequence[pd.DataFrame]) -> bool:
     )
 
 
-def _draw_events(axes: Axes, slips: pd.DataFrame, outline: str) -> FloatArray:
-    """Draw the events of a scene; return those that Fig. 13 counts."""
+def _is_short(slips: pd.DataFrame) -> pd.Series:
+    return ~slips["is_global"].cummax() & ~slips["counted"]
+
+
+def _draw_events(axes: Axes, slips: pd.DataFrame, outline: str, in_place: bool) -> None:
+    """Draw the events of a scene."""
     sign = _sign(slips)
     color = style.theta_color(sign)
     points = np.column_stack(
         [slips["load_before_N"], slips["front"] / slips["n_blocks"]]
     )
-    short = points[~slips["is_global"].cummax() & ~slips["counted"]]
-    axes.plot(*short.T, **SHORT, color=style.pale(color, 0.5))
+    axes.plot(*points[_is_short(slips)].T, **SHORT, color=style.pale(color, 0.5))
     counted = points[slips["counted"]]
     axes.plot(
         *counted.T,
@@ -200,33 +216,39 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, outline: str) -> FloatArray:
         markerfacecolor=color if sign < 0 else "white",
         markeredgewidth=0.8,
         linewidth=0.5,
-        label=_label(slips),
+        label="_" if in_place else "{}, {}:\n{}".format(*_label(slips)),
+        # The smallest marks in front, so that all are seen where they coincide.
+        zorder=2 - 0.1 * sign,
     )
     if sign == 0:
         axes.plot(*counted.T, linestyle="none", marker=".", markersize=2.6, color=color)
-    return counted
 
 
-def _name(axes: Axes, points: FloatArray, sign: int) -> None:
+def _name(axes: Axes, slips: pd.DataFrame, is_alone: bool) -> None:
+    """Write what a curve is, with its number of events, along it, or in the corner that
+    is free if it is alone; and F_X/F_Z at its end."""
+    sign = _sign(slips)
+    look: Options = {"textcoords": "offset points", "color": style.theta_color(sign)}
+    points = slips.loc[slips["counted"], ["load_before_N", "front"]].to_numpy()
     words, part, side, offset = NAMES[sign]
-    axes.annotate(
-        words.format(len(points)),
-        points[int(part * len(points))],
-        offset,
-        textcoords="offset points",
-        ha=side,
-        va="top",
-        color=style.theta_color(sign),
-        fontsize="small",
-        fontweight="bold",
-    )
+    place: Options = {"xytext": offset, "ha": side, "va": "top", "weight": "bold"}
+    words = words.format(len(points))
+    x, y = points[int(part * len(points))] / [1, slips["n_blocks"].iloc[0]]
+    if is_alone:
+        place = {"xycoords": "axes fraction", "xytext": (4, -4), "va": "top"}
+        words = "\n".join(_label(slips))
+        x, y = 0, 1
+    axes.annotate(words, (x, y), **place, **look, fontsize="small")
+    for end in slips.loc[slips["is_global"], "load_before_N"][:1]:
+        ratio = f"{end / slips['normal_load_N'].iloc[0]:.3f}"
+        axes.annotate(ratio, (end, 1), (6, LINE_PT * (sign - 1)), va="center", **look)
 
 
-def _label(slips: pd.DataFrame) -> str:
-    """The scene, and the number of its events."""
+def _label(slips: pd.DataFrame) -> tuple[str, str, str]:
+    """The scene, its slider, and the number of its events."""
     first = slips.iloc[0]
-    name = style.theta_text(first["theta"])
     slider = f"$N = {first['n_blocks']}$, $F_Z = {first['normal_load_N']:g}$ N"
     n = int(slips["counted"].sum())
     note = "" if slips["is_global"].any() else ", no global slip"
-    return f"{name}, {slider}:\n{n} event{'' if n == 1 else 's'}{note}"
+    events = f"{n} event{'' if n == 1 else 's'}{note}"
+    return style.theta_text(first["theta"]), slider, events

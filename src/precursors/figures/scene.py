@@ -61,7 +61,7 @@ def draw(
     look: style.Look = style.LOOK,
     has_key: bool = True,
 ) -> Figure:
-    """Draw F_X(t) and all slip events, and both magnified up to the first global slip,
+    """Draw F_X(t) and all slip events, and F_X magnified up to the first global slip,
     with arrows at the events counted.
 
     An event that goes on when the run ends is a band. The slip table may be empty; the
@@ -76,14 +76,15 @@ def draw(
     is_narrow = width_mm < NARROW_MM
     height_mm = HEIGHT_MM * (1 + 0.8 * is_narrow) + KEY_MM * (1 + is_narrow) * has_key
     with style.page(width_mm, height_mm, look) as figure:
-        layout = [["load", "inset"], ["fronts", "inset"]]
+        # Load, fronts, and the inset beside or below them.
+        layout = "LI;FI"
         if not first_s > 0:
-            layout = [["load"], ["fronts"]]
+            layout = "L;F"
         elif is_narrow:
-            layout = [["load"], ["fronts"], ["inset"]]
-        ratios = [1.6, 1.0, 1.6][: len(layout)]
+            layout = "L;F;I"
+        ratios = [1.6, 1.0, 1.6][: 1 + layout.count(";")]
         panels = figure.subplot_mosaic(layout, height_ratios=ratios)
-        load, fronts = panels["load"], panels["fronts"]
+        load, fronts = panels["L"], panels["F"]
         _draw_load(load, slips, trace, end)
         _draw_events(fronts, slips, trace)
         for panel in (load, fronts):
@@ -97,10 +98,10 @@ def draw(
             told = style.measured(data, curve, first_s, "N")
             figure.set_label(told)
             load.plot(*data.T, **MEASURED, label=told)
-        if "inset" in panels:
+        if "I" in panels:
             for panel in (load, fronts):
                 panel.axvspan(0, ZOOM_END * first_s, color=style.PALE, lw=0, zorder=0)
-            _draw_inset(panels["inset"], slips, trace, first_s)
+            _draw_inset(panels["I"], slips, trace, first_s)
         figure.align_ylabels()
         load.set_title(_title(slips, title), loc="left", pad=4, wrap=True)
         if has_key:
@@ -156,7 +157,7 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame) -> None:
             )
     edge = slips[slips["is_at_the_edge"]]
     # It is in the key of every scene; an empty line that is not clipped upsets the layout.
-    points = edge["onset_s"], edge["reached_mm"]
+    points = edge[["onset_s", "reached_mm"]].to_numpy().T
     axes.plot(*points, **TO_THE_EDGE, clip_on=edge.empty)
     axes.set_ylim(0, 1.08 * style.MM_PER_M * slips["slider_length_m"].iloc[0])
 
@@ -177,12 +178,12 @@ def _draw_inset(
     axes.axvline(first_s, **FIRST_GLOBAL)
     before = slips[slips["onset_s"] < first_s]
     for kind, events in before.groupby("kind", observed=True):
-        drop = events["load_after_N"], events["load_before_N"]
-        axes.vlines(events["onset_s"], *drop, **KINDS[str(kind)])
-    counted = before.loc[before["counted"], ["onset_s", "load_before_N"]]
-    for point in counted.to_numpy():
-        above: Any = {"xytext": (0, 12), "textcoords": "offset points"}
-        axes.annotate("", point, arrowprops=ARROW, **above)
+        drops = events[["onset_s", "load_after_N", "load_before_N"]].to_numpy().T
+        axes.vlines(*drops, **KINDS[str(kind)])
+    counted: Any = before[before["counted"]].itertuples()
+    for event in counted:
+        point = (event.onset_s, event.load_before_N)
+        axes.annotate("", point, (0, 12), textcoords="offset points", arrowprops=ARROW)
 
 
 def _title(slips: pd.DataFrame, title: str) -> str:
