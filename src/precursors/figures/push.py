@@ -31,7 +31,7 @@ LEFT: Options = {
 ROW = (0.0, -0.16, 1.0, 0.13)
 DRIVE = -0.1
 ENDS = (-0.14, 1.1)
-SIDE = 0.8  # of a block, in units of its part of the row
+SIDE = 0.84  # of a block, in units of its part of the row
 NUMBERED = 12  # blocks at most that have their numbers in them
 APART = 40  # blocks at most that are drawn one by one
 
