@@ -74,7 +74,7 @@ def draw(
     times, _ = data.T
     end = np.nanmax([trace["time_s"].iloc[-1], ZOOM_END * first_s, *times])
     is_narrow = width_mm < NARROW_MM
-    height_mm = HEIGHT_MM * (1 + 0.8 * is_narrow) + KEY_MM * (1 + is_narrow) * has_key
+    height_mm = HEIGHT_MM * (1 + 1.2 * is_narrow) + KEY_MM * (1 + is_narrow) * has_key
     with style.page(width_mm, height_mm, look) as figure:
         # Load, fronts, and the inset beside or below them.
         layout = "LI;FI"
@@ -173,7 +173,7 @@ def _draw_inset(
     # A tick at the edge would make the panel of one scene narrower than that of another.
     ticks = axes.get_xticks()
     axes.set_xticks(ticks[(ticks >= 0) & (ticks < 0.98 * end)])
-    axes.set_title(MAGNIFIED, loc="left", pad=4)
+    axes.set_title(MAGNIFIED, loc="left", pad=4, wrap=True)
     axes.set_xlabel("Time $t$ [s]")
     axes.axvline(first_s, **FIRST_GLOBAL)
     before = slips[slips["onset_s"] < first_s]
