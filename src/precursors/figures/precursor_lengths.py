@@ -51,7 +51,7 @@ END_ROOM = 1.22  # of the axis of F_X, in times of the largest load
 # needs to its left.
 APART = 0.1
 ROOM = 0.28
-FEW = 20  # events at most beside which a name has room
+FEW = 12  # blocks at most, whose first event is far enough from the corner
 
 
 def draw(
@@ -108,7 +108,7 @@ def draw_lengths(
         length, load = friction_carried(table.iloc[0], weights)
         axes.plot(load, length, **CARRIED, color=style.theta_color(_sign(table)))
         if in_place:
-            _name(axes, table, is_alone=len(slips) == 1)
+            _name(axes, table[table["counted"]])
     # Measured loads, which are drawn before, may be below zero.
     right = END_ROOM * axes.dataLim.x1 if in_place else None
     axes.set(xlim=(min(0.0, axes.dataLim.x0), right), ylim=(-0.09, 1.08))
@@ -174,16 +174,13 @@ def _sign(table: pd.DataFrame) -> int:
 
 
 def _are_named_in_place(slips: Sequence[pd.DataFrame]) -> bool:
-    """Whether there is one scene, or each has a theta, alone of its sign, a curve of few
-    events and a global slip, and its name has room."""
-    if len(slips) == 1:
-        return len(slips[0]) > 0
+    """Whether each scene has a theta, alone of its sign, a curve and a global slip, and
+    its name has room."""
     at = {}
     for table in slips:
         counted = table[table["counted"]]
-        if not (4 <= len(counted) <= FEW and counted["is_global"].any()):
-            return False
-        if table["theta"].hasnans:
+        has_room = len(counted) >= 4 and (table["n_blocks"] <= FEW).all()
+        if not (has_room and counted["is_global"].any()) or table["theta"].hasnans:
             return False
         sign = _sign(table)
         loads = counted["load_before_N"]
@@ -216,7 +213,7 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, outline: str, in_place: bool) 
         markerfacecolor=color if sign < 0 else "white",
         markeredgewidth=0.8,
         linewidth=0.5,
-        label="_" if in_place else "{}, {}:\n{}".format(*_label(slips)),
+        label="_" if in_place else _label(slips),
         # The smallest marks in front, so that all are seen where they coincide.
         zorder=2 - 0.1 * sign,
     )
@@ -224,31 +221,34 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, outline: str, in_place: bool) 
         axes.plot(*counted.T, linestyle="none", marker=".", markersize=2.6, color=color)
 
 
-def _name(axes: Axes, slips: pd.DataFrame, is_alone: bool) -> None:
-    """Write what a curve is, with its number of events, along it, or in the corner that
-    is free if it is alone; and F_X/F_Z at its end."""
-    sign = _sign(slips)
+def _name(axes: Axes, counted: pd.DataFrame) -> None:
+    """Write along a curve what it is, with its number of events, and F_X/F_Z at its
+    end."""
+    sign = _sign(counted)
     look: Options = {"textcoords": "offset points", "color": style.theta_color(sign)}
-    points = slips.loc[slips["counted"], ["load_before_N", "front"]].to_numpy()
     words, part, side, offset = NAMES[sign]
-    place: Options = {"xytext": offset, "ha": side, "va": "top", "weight": "bold"}
-    words = words.format(len(points))
-    x, y = points[int(part * len(points))] / [1, slips["n_blocks"].iloc[0]]
-    if is_alone:
-        place = {"xycoords": "axes fraction", "xytext": (4, -4), "va": "top"}
-        words = "\n".join(_label(slips))
-        x, y = 0, 1
-    axes.annotate(words, (x, y), **place, **look, fontsize="small")
-    for end in slips.loc[slips["is_global"], "load_before_N"][:1]:
-        ratio = f"{end / slips['normal_load_N'].iloc[0]:.3f}"
-        axes.annotate(ratio, (end, 1), (6, LINE_PT * (sign - 1)), va="center", **look)
+    loads = counted["load_before_N"].to_numpy()
+    i = int(part * len(loads))
+    axes.annotate(
+        words.format(len(loads)),
+        (loads[i], counted["front"].iloc[i] / counted["n_blocks"].iloc[i]),
+        offset,
+        ha=side,
+        va="top",
+        fontsize="small",
+        fontweight="bold",
+        **look,
+    )
+    ratio = f"{loads[-1] / counted['normal_load_N'].iloc[-1]:.3f}"
+    place = (6, LINE_PT * (sign - 1))
+    axes.annotate(ratio, (loads[-1], 1), place, va="center", **look)
 
 
-def _label(slips: pd.DataFrame) -> tuple[str, str, str]:
-    """The scene, its slider, and the number of its events."""
+def _label(slips: pd.DataFrame) -> str:
+    """The scene, and the number of its events."""
     first = slips.iloc[0]
+    name = style.theta_text(first["theta"])
     slider = f"$N = {first['n_blocks']}$, $F_Z = {first['normal_load_N']:g}$ N"
     n = int(slips["counted"].sum())
     note = "" if slips["is_global"].any() else ", no global slip"
-    events = f"{n} event{'' if n == 1 else 's'}{note}"
-    return style.theta_text(first["theta"]), slider, events
+    return f"{name}, {slider}:\n{n} event{'' if n == 1 else 's'}{note}"

@@ -17,8 +17,6 @@ from precursors.model.chain import FloatArray
 HEIGHT_MM = 70.0  # of a row of panels
 NARROW_MM = 120.0  # below this width the panels stand below each other
 FINDING = "The farthest slips stop where friction has used up the push"
-LINES = {"push before": 0.6, "after": 1.5}  # their widths [pt] with few blocks
-ADDED: Options = {"label": "added by the slip"}  # in the colour of the slip
 RELEASED: Options = {"facecolor": style.pale(style.GREY, 0.45), "label": "released"}
 LEFT: Options = {
     "color": style.BLACK,
@@ -95,7 +93,10 @@ def _draw_event(axes: Axes, run: Any, event: Any) -> float:
     """Draw an event; return how many blocks it goes beyond where its push is used up."""
     n, load = event.n_blocks, event.load_before_N
     color = style.GLOBAL if event.is_global else style.PARTIAL
-    added = ADDED | {"facecolor": style.pale(color, 0.6)}
+    added: Options = {
+        "facecolor": style.pale(color, 0.6),
+        "label": "added by the slip",
+    }
     edges = np.linspace(0, 1, n + 1)
     middles = (edges[1:] + edges[:-1]) / 2
     # Each spring reaches from the middle of a block to that of the next.
@@ -104,9 +105,11 @@ def _draw_event(axes: Axes, run: Any, event: Any) -> float:
     for top, fill in ((after, added), (before, RELEASED)):
         low = np.minimum(before, after)
         axes.stairs(np.maximum(top, low), springs, baseline=low, fill=True, **fill)
-    for push, (label, width) in zip((before, after), LINES.items(), strict=True):
-        line: Options = {"linewidth": width * min(1.0, APART / n), "label": label}
-        axes.stairs(push, springs, color=style.BLACK, **line)
+    thin = min(1.0, APART / n)
+    for push, label, width in (before, "push before", 0.6), (after, "after", 1.5):
+        axes.stairs(
+            push, springs, color=style.BLACK, linewidth=thin * width, label=label
+        )
     carried = run.chain.mu_k * np.append(0.0, np.cumsum(run.chain.weights))
     end = np.interp(load, carried, edges)
     x = np.append(edges[carried < load], end)
@@ -122,17 +125,16 @@ def _draw_event(axes: Axes, run: Any, event: Any) -> float:
 def _reason(run: Any, event: Any, beyond: float, left: float, after: FloatArray) -> str:
     """Where the slip stops and why, in two lines; `left` is the load that is left after
     the last block [N], and `after` the push in each spring [N]."""
-    n, front = event.n_blocks, event.front
     if event.is_global:
         push = f"{left:.2g} N of the push are not" if left > 0 else "the push is"
         return f"Global slip: the row goes,\n{push} used up"
-    where = f"Precursor: stops after block {front}"
+    front = event.front
+    goes = f"stops after block {front}" if front < event.n_blocks else "goes to the end"
+    where = f"Precursor: {goes}"
     if beyond > 1:
         return f"{where},\nbeyond where the push is used up"
     if beyond >= -1:
         return f"{where},\nwhere the push is used up"
-    if front == n:
-        return f"Reaches block {n},\nbut not all at once"
     onto_next = after[front] - np.append(after, 0.0)[front + 1]
     most = run.chain.mu_s * run.chain.weights[front]
     return (
@@ -149,15 +151,12 @@ def _draw_row(axes: Axes, middles: FloatArray, front: int, color: str) -> None:
     row.set(xlim=ENDS, ylim=(0, 1))
     row.hlines(0.5, DRIVE, middles[-1], color=style.GREY, linewidth=1.6, zorder=0)
     row.plot(DRIVE, 0.5, "o", color=style.BLACK)
-    if n > APART:
-        share = front / n
-        row.bar(
-            [0, share], 1, [share, 1 - share], color=[color, style.PALE], align="edge"
-        )
-        return
     colors = np.where(np.arange(n) < front, color, style.PALE)
-    outline: Options = {"edgecolor": style.BLACK, "linewidth": min(0.6, 6 / n)}
-    row.bar(middles, 1, SIDE / n, color=colors, **outline)
+    if n > APART:
+        row.bar(middles, 1, 1 / n, color=colors, edgecolor=colors, linewidth=0.3)
+    else:
+        outline: Options = {"edgecolor": style.BLACK, "linewidth": min(0.6, 6 / n)}
+        row.bar(middles, 1, SIDE / n, color=colors, **outline)
     for i, x in enumerate(middles if n <= NUMBERED else ()):
         ink = "white" if colors[i] == style.GLOBAL else style.BLACK
         row.text(x, 0.47, str(i + 1), ha="center", va="center", size="small", color=ink)

@@ -126,11 +126,9 @@ class Look:
     @property
     def settings(self) -> Options:
         """The settings of Matplotlib that follow."""
-        settings = {"font.size": self.font_size, "font.sans-serif": self.font}
-        of_ticks = dict.fromkeys(
-            ["xtick.labelsize", "ytick.labelsize"], TICKS * self.font_size
-        )
-        return _SETTINGS | settings | of_ticks
+        ticks = TICKS * self.font_size
+        own = {"font.size": self.font_size, "font.sans-serif": self.font}
+        return _SETTINGS | own | {"xtick.labelsize": ticks, "ytick.labelsize": ticks}
 
 
 LOOK = Look()
