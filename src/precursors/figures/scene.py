@@ -156,10 +156,10 @@ def _draw_measured_loads(
     """Draw measured loads; the figure gets lines of text that say how far they are."""
     curve = trace[LOAD].to_numpy()
     loads = [each for each in data if not each.are_lengths]
-    told = [each.beside(curve, first_s, "N") for each in loads]
-    for each, label, line in zip(loads, told, cycle(LINES), strict=False):
+    labels = [each.beside(curve, first_s, "N") for each in loads]
+    for each, label, line in zip(loads, labels, cycle(LINES), strict=False):
         axes.plot(*each.points.T, **MEASURED, linestyle=line, label=label)
-    axes.figure.set_label("\n".join(" ".join(label.split()) for label in told))
+    axes.figure.set_label("\n".join(" ".join(label.split()) for label in labels))
 
 
 def _draw_measured_lengths(axes: Axes, data: Sequence[Measured]) -> None:

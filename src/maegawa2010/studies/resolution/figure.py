@@ -114,6 +114,8 @@ def _name_ends(axes: Axes, medians: pd.DataFrame) -> None:
             transform=axes.transAxes,
             va="center",
             color=style.theta_color(theta),
+            # No dotted line goes through a name.
+            bbox={"facecolor": "white", "linewidth": 0, "pad": 0},
         )
 
 
