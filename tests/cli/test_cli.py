@@ -372,7 +372,7 @@ def test_a_load_curve_and_a_film_are_drawn_with_their_names(
     )
     drawn = {}
     monkeypatch.setattr(style, "save", lambda figure, *_: drawn.update(figure=figure))
-    for width in (60, 85, 178):
+    for width in (60, 85, 120, 174):
         look = (f"--width={width}", "--font-size=9")
         assert cli("plot", run_file, *files, *chosen, *look)[::2] == (0, printed)
         figure = drawn["figure"]
@@ -380,6 +380,8 @@ def test_a_load_curve_and_a_film_are_drawn_with_their_names(
         box = key.get_window_extent()
         assert box.x0 >= 0
         assert box.x1 <= figure.bbox.width
+        assert box.y0 >= 0
+        assert box.y1 < min(axes.get_tightbbox().y0 for axes in figure.axes)
         lines = figure.findobj(lambda a: getattr(a, "get_label", str)() == "film.csv")
         points = [
             line.get_xydata().tolist() for line in lines if len(line.get_xydata())
