@@ -70,7 +70,7 @@ def test_an_svg_has_its_words_as_text_and_a_title(tmp_path):
     style.save(figure, tmp_path / "figure.svg", title="Fig. 13")
     svg = (tmp_path / "figure.svg").read_text("utf-8")
     assert "<title>Fig. 13</title>" in svg
-    assert "uniform load:</text>" in svg
+    assert "short events, not counted</text>" in svg
 
 
 @pytest.mark.parametrize(
