@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from precursors.figures import style
 from precursors.figures.style import Options
 
-HEIGHT_MM = 96.0
+HEIGHT_MM = 80.0
 FINDING = "the mean load is the kinetic friction, whatever the loading"
 AGREES = 0.001  # of F_Z: so near to mu_k is every mean where the title says so
 LOADS = (0.28, 0.69)  # F_X/F_Z: words stand above the curves

@@ -9,7 +9,7 @@ from maegawa2010 import printed
 from precursors.figures import style
 from precursors.figures.style import Options
 
-HEIGHT_MM = 80.0
+HEIGHT_MM = 62.0
 FEWEST = 10  # blocks that are drawn; with fewer, numbers jump from one N to the next
 AGREES = 0.005  # less than so far from mu_k
 MEDIAN: Options = {"linewidth": 1.2}
