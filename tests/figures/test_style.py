@@ -99,9 +99,9 @@ def test_the_law_holds_for_measured_loads_and_the_axis_holds_the_data():
         plot(run, data=[1.0, 2.0])
 
 
-def test_the_magnified_view_has_the_measured_loads_up_to_its_end():
+def test_the_magnified_view_has_the_measured_loads_in_it():
     run = simulate(Chain.from_slider(), 4.0)
-    inside, beyond = [[1.0, 90.0], [2.0, 140.0]], [[3.9, 900.0]]
+    inside, beyond = [[2.0, 140.0], [2.7, 180.0]], [[3.9, 900.0]]
     figure = plot(run, data=inside + beyond)
     (view,) = (
         each for each in figure.axes if each.get_title("left") == scene.MAGNIFIED

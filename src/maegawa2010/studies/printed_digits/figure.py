@@ -88,5 +88,5 @@ def _draw_counts(axes: Axes, members: pd.DataFrame) -> str:
             color=color,
             fontweight="bold",
         )
-    axes.set(ylabel="Share of runs [%]", ylim=(0, 118))
+    axes.set(ylabel="Share of runs [%]", ylim=(0, 130))
     return f"{', '.join(shares[:-1])} and {shares[-1]}"
