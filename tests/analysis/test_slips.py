@@ -12,7 +12,11 @@ from precursors import (
     simulate,
     slip_table,
 )
-from precursors.analysis.events import SLIP, slip_events, slips_one_by_one
+from precursors.analysis.events import (
+    SLIP,
+    slip_events,
+    slip_events_by_definition,
+)
 
 # One product and one quotient of doubles.
 ROUNDING = 1e-15
@@ -62,7 +66,7 @@ def test_any_list_of_transitions_has_the_events_of_the_definition():
         simulate(random_chain(rng), duration=rng.uniform(0.5, 4.0)) for _ in range(40)
     ]
     for run in runs:
-        expected = np.array(slips_one_by_one(run), SLIP)
+        expected = np.array(slip_events_by_definition(run), SLIP)
         np.testing.assert_array_equal(slip_events(run).tolist(), expected.tolist())
 
 

@@ -29,7 +29,7 @@ LIGHT = 0.01
 SLIP = np.dtype(list(get_type_hints(Slip).items()))
 
 
-def slips_one_by_one(run: Record) -> list[Slip]:
+def slip_events_by_definition(run: Record) -> list[Slip]:
     """The definition of slip events, for reading; `slip_events` finds them faster.
 
     An event ends where no block slides, unless the next one releases at the same
@@ -77,7 +77,8 @@ def slips_one_by_one(run: Record) -> list[Slip]:
 
 
 def slip_events(run: Record) -> NDArray[np.void]:
-    """Slip events of a run: a row of dtype SLIP for each of `slips_one_by_one`."""
+    """Slip events of a run: a row of dtype SLIP for each of
+    `slip_events_by_definition`."""
     time = run.transitions["time"]
     block = run.transitions["block"]
     load = run.transitions["tangential_load"]

@@ -1,13 +1,10 @@
 """Slip events of a run as tables, and those that Fig. 13 counts."""
 
-from typing import Any
-
 import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike, NDArray
 
 from precursors.analysis.events import SLIP, slip_events
-from precursors.model.chain import Chain
 from precursors.solver.run import Record
 
 # Columns of `slip_table` that say which slider it was, and its attributes.
@@ -44,20 +41,13 @@ def slip_table(run: Record) -> pd.DataFrame:
     (L) and mu_k say which slider it was, the same in every row; theta is NaN where it
     is not known.
     """
-    return pd.DataFrame(slip_columns(slip_events(run), run.chain))
-
-
-def slip_columns(slips: NDArray[np.void], chain: Chain) -> dict[str, NDArray[Any]]:
-    """Columns of `slip_table` by name, of slip events of a chain."""
-    return {
-        **{name: slips[name] for name in SLIP.names or ()},
-        "counted": counted(slips),
-        "front_length_m": slips["front"] * chain.length / chain.n_blocks,
-        **{
-            column: np.full(len(slips), getattr(chain, name))
-            for column, name in OF_SLIDER.items()
-        },
-    }
+    slips = slip_events(run)
+    columns = {name: slips[name] for name in SLIP.names or ()}
+    columns["counted"] = counted(slips)
+    columns["front_length_m"] = slips["front"] * run.chain.length / run.chain.n_blocks
+    for column, name in OF_SLIDER.items():
+        columns[column] = np.full(len(slips), getattr(run.chain, name))
+    return pd.DataFrame(columns)
 
 
 def find_precursors(slips: pd.DataFrame) -> pd.DataFrame:
@@ -82,14 +72,3 @@ def until_global(is_global: ArrayLike) -> NDArray[np.bool_]:
     """Which events come up to and including the first global slip."""
     is_global = np.asarray(is_global, bool)
     return np.cumsum(is_global) - is_global == 0
-
-
-def first_global(is_global: ArrayLike) -> int | None:
-    """Number of the first event that is a global slip; None without one."""
-    is_global = np.asarray(is_global, bool)
-    return int(is_global.argmax()) if is_global.any() else None
-
-
-def up_to_first_global(slips: pd.DataFrame) -> pd.DataFrame:
-    """Rows up to and including the first global slip; all without one."""
-    return slips[until_global(slips["is_global"])]
