@@ -142,6 +142,7 @@ def test_a_larger_ensemble_contains_the_smaller(noise):
 def test_growth_beyond_the_kink_is_that_of_the_events_counted(fronts, expected):
     loads = np.arange(10.0, 60.0, 10.0)
     slips = pd.DataFrame({"front": fronts, "load_before_N": loads, "n_blocks": 10})
-    assert speedup(slips.assign(counted=True, is_global=True)) == pytest.approx(
+    slips = slips.assign(counted=True, is_global=True)
+    assert speedup(slips.to_records(index=False)) == pytest.approx(
         expected, nan_ok=True
     )

@@ -6,9 +6,10 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from maegawa2010.studies.members import Study, chain_of
-from precursors.analysis.slips import slip_table
+from precursors.analysis.slips import slip_events
 from precursors.analysis.summary import summarise
 from precursors.model.chain import Chain
 from precursors.solver.many import simulate_many
@@ -47,7 +48,7 @@ def numbers_of(runs: Iterable[Record]) -> pd.DataFrame:
     """A row for each run: its summary (see `summarise`), and the growth of L_p (see
     `speedup`)."""
     runs = list(runs)
-    return summarise(runs).assign(speedup=[speedup(slip_table(run)) for run in runs])
+    return summarise(runs).assign(speedup=[speedup(slip_events(run)) for run in runs])
 
 
 def up_to_global_slip(chains: Sequence[Chain], duration: float) -> Sequence[Run]:
@@ -62,15 +63,17 @@ def up_to_global_slip(chains: Sequence[Chain], duration: float) -> Sequence[Run]
         return [run for chain in chains for run in up_to_global_slip([chain], duration)]
 
 
-def speedup(slips: pd.DataFrame) -> float:
-    """Growth of L_p with F_X beyond KINK L, over that before, in the events counted of a
-    slip table.
+def speedup(slips: NDArray[np.void]) -> float:
+    """Growth of L_p with F_X beyond KINK L, over that before, in the events counted of
+    `slip_events`.
 
     The first event of the whole length ends the second, and the last one before it of
     up to KINK L divides the two. NaN where one of them has no rise of L_p or F_X.
     """
-    columns = ["front", "load_before_N", "n_blocks"]
-    front, load, n_blocks = slips.loc[slips["counted"], columns].to_numpy().T
+    counted = slips[slips["counted"]]
+    front, load, n_blocks = (
+        counted[name] for name in ("front", "load_before_N", "n_blocks")
+    )
     whole = np.flatnonzero(front == n_blocks)
     if not len(whole) or not slips["is_global"].any():
         return math.nan

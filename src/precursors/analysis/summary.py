@@ -6,8 +6,9 @@ from typing import NamedTuple, get_type_hints
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
-from precursors.analysis.slips import slip_table, until_global
+from precursors.analysis.slips import slip_events, until_global
 from precursors.solver.run import Record
 
 
@@ -44,7 +45,7 @@ def summarise(runs: Record | Iterable[Record]) -> pd.DataFrame:
         global_slip_end_s NaN.
     """
     runs = [runs] if isinstance(runs, Record) else list(runs)
-    rows = np.array([summary_of(slip_table(run)) for run in runs], SUMMARY)
+    rows = np.array([summary_of(slip_events(run)) for run in runs], SUMMARY)
     transitions = np.array([len(run.transitions) for run in runs], int)
     return pd.DataFrame(rows).assign(transitions=transitions)
 
@@ -57,8 +58,8 @@ def apparent_friction(run: Record) -> float:
     return float(summarise([run])["mu_sapp"].item())
 
 
-def summary_of(slips: pd.DataFrame) -> Summary:
-    """The numbers of a run from its `slip_table`."""
+def summary_of(slips: pd.DataFrame | NDArray[np.void]) -> Summary:
+    """The numbers of a run from its `slip_table` or `slip_events`."""
     counts = Summary(
         events_to_global_slip=int(until_global(slips["is_global"]).sum()),
         events_counted=int(slips["counted"].sum()),
@@ -67,14 +68,16 @@ def summary_of(slips: pd.DataFrame) -> Summary:
     )
     if not counts.reached:
         return counts
-    first = counts.events_to_global_slip - 1
-    load = slips["largest_load_N"].iloc[first]
+
+    def of_first(column: str) -> float:
+        return float(np.asarray(slips[column])[counts.events_to_global_slip - 1])
+
     return counts._replace(
         # Eq. 1. F_X is largest where block 1 begins to slide, or sticks after it slid
         # backward: dF_X/dt = K (V - v_1). So it is that of a transition, to within V.
-        mu_sapp=load / slips["normal_load_N"].iloc[first],
-        largest_load_N=load,
-        global_slip_s=slips["onset_s"].iloc[first],
-        global_slip_end_s=slips["end_s"].iloc[first],
-        global_slip_load_N=slips["load_before_N"].iloc[first],
+        mu_sapp=of_first("largest_load_N") / of_first("normal_load_N"),
+        largest_load_N=of_first("largest_load_N"),
+        global_slip_s=of_first("onset_s"),
+        global_slip_end_s=of_first("end_s"),
+        global_slip_load_N=of_first("load_before_N"),
     )

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from precursors.analysis.events import agreeing, slip_events, transitions_right
+from precursors.analysis.agreement import agreeing, transitions_right
+from precursors.analysis.slips import slip_events
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.record import COLUMNS
 from precursors.solver.run import Record

@@ -399,8 +399,8 @@ def tell(line: str) -> None:
 def tell_accuracy(run: Record, first_global_slip: float) -> None:
     """Say if a light block decides what events are, or if roundings decide the first
     global slip [s]."""
-    from precursors.analysis.events import told_of_light_blocks
     from precursors.analysis.horizon import predicted_errors
+    from precursors.analysis.slips import told_of_light_blocks
 
     if words := told_of_light_blocks(run):
         tell(words)

@@ -33,7 +33,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.analysis.events import SLIP, Slip
+from precursors.analysis.slips import SLIP, Slip
 from precursors.model.chain import Chain, FloatArray
 from precursors.support.compiled import entry
 
