@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike, NDArray
 
+from precursors.model.chain import Chain
 from precursors.solver.run import Record
 
 # Of the mean load: a lighter block may slide on while all others stick.
@@ -38,7 +39,7 @@ class Slip(NamedTuple):
 
 
 SLIP = np.dtype(list(get_type_hints(Slip).items()))
-# Of `slip_events`: a slip, whether it is counted, and the slider.
+# Of `slip_table`: a slip, whether it is counted, and the slider.
 ROW = np.dtype(
     [
         *SLIP.descr,
@@ -123,7 +124,7 @@ def slip_events(run: Record) -> NDArray[np.void]:
     is_global = at_once == n_loaded
     is_finished = n_sliding[last] == 0
 
-    slips = np.empty(len(last), ROW)
+    slips = np.empty(len(last), SLIP)
     slips["onset_s"] = time[first]
     slips["end_s"] = np.where(is_finished, time[last], np.nan)
     slips["load_before_N"] = load[first]
@@ -134,12 +135,19 @@ def slip_events(run: Record) -> NDArray[np.void]:
     slips["n_slid"] = np.where(n_slid == n_loaded, n_blocks, n_slid)
     slips["n_simultaneous"] = np.where(is_global, n_blocks, at_once)
     slips["is_global"] = is_global
-    slips = slips[n_slid > 0]
-    slips["counted"] = counted(slips)
-    slips["front_length_m"] = slips["front"] * run.chain.length / n_blocks
+    return rows_of(slips[n_slid > 0], run.chain)
+
+
+def rows_of(slips: NDArray[np.void], chain: Chain) -> NDArray[np.void]:
+    """Rows of `slip_table`, dtype ROW, for slip events of a chain, dtype SLIP."""
+    rows = np.empty(len(slips), ROW)
+    for name in SLIP.names or ():
+        rows[name] = slips[name]
+    rows["counted"] = counted(slips)
+    rows["front_length_m"] = slips["front"] * chain.length / chain.n_blocks
     for column, name in OF_SLIDER.items():
-        slips[column] = getattr(run.chain, name)
-    return slips
+        rows[column] = getattr(chain, name)
+    return rows
 
 
 def slip_table(run: Record) -> pd.DataFrame:

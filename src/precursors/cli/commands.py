@@ -24,7 +24,6 @@ from precursors.model.chain import (
     FloatArray,
     theta_from_load_cells,
 )
-from precursors.model.checks import positive
 from precursors.solver.run import Record, Run, RunFileError
 from precursors.solver.run_file import has_checksum
 from precursors.support.checkout import built_state, git_state
@@ -41,39 +40,6 @@ from precursors.support.measured import (
 if TYPE_CHECKING:
     from precursors.figures.style import Measured
 
-FOUND = "{counted} counted in Fig. 13, of {events_to_global_slip} "
-FIRST_SLIP = """\
-up to the first global slip and {events_in_all} in {duration_s:g} s.
-mu_sapp = {mu_sapp:.3f} = {largest_load_N:.1f} N / {F_Z:g} N; first global slip at {global_slip_s:.3f} s.
-"""
-# Of `summarise`, what `simulate` tells.
-SHOWN = (
-    "transitions",
-    "events_to_global_slip",
-    "events_counted",
-    "events_in_all",
-    "mu_sapp",
-    "largest_load_N",
-    "global_slip_load_N",
-    "global_slip_s",
-    "global_slip_end_s",
-)
-# Columns of a slip table that follow from others in it, and make it wide to read.
-TOLD_TWICE = ("largest_load_N", "front_length_m")
-NO_SLIP = "in {duration_s:g} s; no global slip.\n"
-SCORE = "{problem}: {transitions_right} of {transitions_true} transitions right"
-ERRORS = (
-    ", times within {time_error_s:.1e} s ({time_error_to_global_slip_s:.1e} s to the "
-    "first global slip)"
-)
-COUNTED = (
-    "; events counted {events_counted} (true: {events_counted_true}), "
-    "mu_sapp {mu_sapp:.4f} (true: {mu_sapp_true:.4f})"
-)
-ENDS_EARLY = (
-    "; it ends at {ends_s:g} s, before the first global slip (true: {events_counted_true} "
-    "events counted, mu_sapp {mu_sapp_true:.4f})"
-)
 # What columns are chosen for, in files of each option.
 KEYS = {"data": ("t", "F_X", "L_p/L"), "weights": ("w",), "profile": ("x", "p")}
 # Of measured times in a run, of measured loads and its own.
@@ -87,25 +53,36 @@ def simulate(arguments: Namespace) -> None:
     from precursors.analysis.summary import summarise
 
     run = run_of_options(arguments)
-    [found] = summarise([run]).to_dict("records")
-    values: dict[str, Any] = {
-        "n_blocks": run.chain.n_blocks,
-        "duration_s": run.duration,
-        **{name: found[name] for name in SHOWN},
-    }
+    records: Any = summarise([run]).to_dict("records")
+    numbers = records[0]
+    values = {"n_blocks": run.chain.n_blocks, "duration_s": run.duration, **numbers}
+    del values["reached"]
     advice = "--output RUN.h5 saves the run; precursors plot RUN.h5 draws it"
     if arguments.output is not None:
         run.save(arguments.output)
         values["output"] = str(arguments.output)
         advice = f"precursors plot {shlex.quote(values['output'])} draws it"
     if not arguments.json:
-        text = FOUND + (FIRST_SLIP if found["reached"] else NO_SLIP)
-        counted = several(found["events_counted"], "event")
-        print(text.format(**values, F_Z=run.chain.normal_load, counted=counted))
+        print(run_in_words(run, numbers), end="\n\n")
     show_values(values, arguments.json)
     if not arguments.json:
         print(f"\n{advice}")
-    tell_accuracy(run, found["global_slip_s"])
+    tell_accuracy(run, numbers["global_slip_s"])
+
+
+def run_in_words(run: Run, numbers: Mapping[Any, Any]) -> str:
+    """A sentence about a run, from its row of `summarise`."""
+    counted = several(numbers["events_counted"], "event")
+    text = f"{counted} counted in Fig. 13, of {numbers['events_to_global_slip']} "
+    if not numbers["reached"]:
+        return f"{text}in {run.duration:g} s; no global slip."
+    return (
+        f"{text}up to the first global slip and {numbers['events_in_all']} in "
+        f"{run.duration:g} s.\n"
+        f"mu_sapp = {numbers['mu_sapp']:.3f} = {numbers['largest_load_N']:.1f} N / "
+        f"{run.chain.normal_load:g} N; first global slip at "
+        f"{numbers['global_slip_s']:.3f} s."
+    )
 
 
 def slips(arguments: Namespace) -> None:
@@ -120,14 +97,15 @@ def slips(arguments: Namespace) -> None:
     if arguments.output is not None:
         write_table(table, arguments.output, arguments.decimal)
     if arguments.json:
-        found = table.astype(object).where(table.notna(), None)
-        print(json.dumps(found.to_dict(orient="records"), indent=1))
+        rows = table.astype(object).where(table.notna(), None)
+        print(json.dumps(rows.to_dict(orient="records"), indent=1))
     elif arguments.output is not None:
         print(f"{several(len(table), 'event')}: {arguments.output}")
     elif table.empty:
         print("no slip event")
     else:
-        shown = table.drop(columns=[*OF_SLIDER, *TOLD_TWICE])
+        # What follows from other columns makes the table wide to read.
+        shown = table.drop(columns=[*OF_SLIDER, "largest_load_N", "front_length_m"])
         print(shown.to_string(index=False, na_rep="-", float_format="{:.7g}".format))
     tell_accuracy(run, first_global_slip)
 
@@ -159,42 +137,29 @@ def plot(arguments: Namespace) -> None:
 
 
 def _measured(arguments: Namespace, run: Record) -> list[Measured]:
-    """Measured values of each file, from the start of the run on, without the offset of
-    F_X; a line says what they are, and others if they may be something else."""
-    from precursors.figures.run import AXES, read_measured
+    """What is measured in each file; lines say what it is, and if it may be something
+    else."""
+    from precursors.figures.run import axes_of, read_measured
 
-    figure = arguments.figure
-    if not AXES[figure]:
-        raise ValueError(f"{arguments.data[0]}: a {figure} takes no data")
-    x = AXES[figure][0]
+    x, *_ = axes_of(arguments.figure)
     if x is not TIME and given(arguments, ("sample_rate", "data_start")):
         raise ValueError("--sample-rate and --data-start need --figure load or curve")
     measured = []
     names = [Path(path).name for path in arguments.data]
-    n = len(names)
     for i, path in enumerate(arguments.data):
-        rate = of_file("sample-rate", arguments.sample_rate, i, n)
-        start = of_file("data-start", arguments.data_start, i, n)
-        offset = of_file("data-offset", arguments.data_offset, i, n)
-        if rate is not None:
-            positive("--sample-rate", rate, "Hz")
-        how = how_to_read(arguments, "data", i)
-        for each in read_measured(path, figure, run, sample_rate=rate, **how):
-            data = each.points
+        how = {
+            name: of_file(name, getattr(arguments, name), i, len(names))
+            for name in DATA
+        }
+        how |= how_to_read(arguments, "data", i)
+        for each in read_measured(path, arguments.figure, run, **how):
             y = LENGTH if each.are_lengths else LOAD
-            if offset is not None and LOAD in (x, y):
-                data[:, (x, y).index(LOAD)] -= offset
-            if start is not None:
-                data[:, 0] -= start
-                data = data[data[:, 0] >= 0]
-            if not len(data):
-                raise ValueError(f"{path} ends before --data-start")
-            columns = {x: data[:, 0], y: data[:, 1]}
+            columns = dict(zip((x, y), each.points.T, strict=True))
             ranges = (f"{q} {x.min():g} to {x.max():g}" for q, x in columns.items())
-            tell(f"{path}: {several(len(data), 'point')}, {', '.join(ranges)}")
+            tell(f"{path}: {several(len(each.points), 'point')}, {', '.join(ranges)}")
             tell_doubts(path, columns, run)
-            name = path if names.count(each.name) > 1 else each.name
-            measured.append(replace(each, name=name, points=data))
+            is_alone = names.count(each.name) == 1
+            measured.append(each if is_alone else replace(each, name=path))
     return measured
 
 
@@ -255,10 +220,32 @@ def score(arguments: Namespace) -> None:
 
     values = score(arguments.file, arguments.problem, arguments.ties)
     if not arguments.json:
-        errors = ERRORS if values["transitions_right"] else ""
-        numbers = ENDS_EARLY if np.isnan(values["mu_sapp"]) else COUNTED
-        print((SCORE + errors + numbers).format(**values), end="\n\n")
+        print(score_in_words(values), end="\n\n")
     show_values(values, arguments.json)
+
+
+def score_in_words(values: Mapping[str, Any]) -> str:
+    """A sentence about a score."""
+    text = (
+        f"{values['problem']}: {values['transitions_right']} of "
+        f"{values['transitions_true']} transitions right"
+    )
+    if values["transitions_right"]:
+        text += (
+            f", times within {values['time_error_s']:.1e} s "
+            f"({values['time_error_to_global_slip_s']:.1e} s to the first global slip)"
+        )
+    true_counted = values["events_counted_true"]
+    true_friction = values["mu_sapp_true"]
+    if np.isnan(values["mu_sapp"]):
+        return (
+            f"{text}; it ends at {values['ends_s']:g} s, before the first global slip "
+            f"(true: {true_counted} events counted, mu_sapp {true_friction:.4f})"
+        )
+    return (
+        f"{text}; events counted {values['events_counted']} (true: {true_counted}), "
+        f"mu_sapp {values['mu_sapp']:.4f} (true: {true_friction:.4f})"
+    )
 
 
 def version(_: Namespace) -> None:
@@ -365,7 +352,7 @@ def how_to_read(arguments: Namespace, option: str, place: int = 0) -> dict[str, 
     choice = of_file("columns", arguments.columns, i, n) or {}
     return {
         "choice": {key: choice[key] for key in KEYS[option] if key in choice},
-        "header_line": of_file("header-line", arguments.header_line, i, n),
+        "header_line": of_file("header_line", arguments.header_line, i, n),
     }
 
 
@@ -374,8 +361,8 @@ def of_file(option: str, values: Sequence[Any] | None, place: int, number: int) 
     or once for each."""
     if values and len(values) not in (1, number):
         raise ValueError(
-            f"--{option} must be given once, or once for each of {several(number, 'file')}, "
-            f"but is given {len(values)} times"
+            f"--{option.replace('_', '-')} must be given once, or once for each of "
+            f"{several(number, 'file')}, but is given {len(values)} times"
         )
     return values and values[place if len(values) > 1 else 0]
 

@@ -6,7 +6,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-import pandas as pd
+from numpy.typing import NDArray
 
 from maegawa2010.studies.models import rigid, statics
 from maegawa2010.studies.models.quasistatic import (
@@ -14,7 +14,7 @@ from maegawa2010.studies.models.quasistatic import (
     OVERDAMPED,
     quasistatic_slips,
 )
-from precursors.analysis.slips import counted, slip_table
+from precursors.analysis.slips import slip_events
 from precursors.analysis.summary import summary_of
 from precursors.model.chain import Chain
 from precursors.model.statics import longest_run
@@ -36,20 +36,18 @@ UNITS = {
 def exact_answers(chain: Chain) -> dict[str, Any]:
     """Follow the paper's chain through time to the end of its first global slip."""
     run = simulate(chain, longest_run(chain), until="global slip")
-    slips = slip_table(run)
-    last = slips.iloc[-1]
+    slips = slip_events(run)
+    last = slips[-1]
     duration = last["end_s"] - last["onset_s"] if last["is_global"] else np.nan
     return loading_answers(chain, slips) | {"slip_duration": duration}
 
 
 def cascade_answers(chain: Chain, overshoot: float) -> dict[str, Any]:
     """Follow a quasi-static chain to its first global slip."""
-    slips = pd.DataFrame(quasistatic_slips(chain, overshoot))
-    slips = slips.assign(counted=counted(slips), normal_load_N=chain.normal_load)
-    return loading_answers(chain, slips)
+    return loading_answers(chain, quasistatic_slips(chain, overshoot))
 
 
-def loading_answers(chain: Chain, slips: pd.DataFrame) -> dict[str, Any]:
+def loading_answers(chain: Chain, slips: NDArray[np.void]) -> dict[str, Any]:
     """A model's answers from its slip events up to the first global slip; NaN for one
     that needs a global slip and has none."""
     found = summary_of(slips)
