@@ -2,6 +2,7 @@
 is said in one line: which value, in which file, and what it must be."""
 
 import os
+from collections import ChainMap
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from copy import deepcopy
@@ -68,26 +69,36 @@ def load_config(
     files
         The contents of the files that it was read from, the most important one last.
     workflow
-        Directory of studies.yaml, which has what is not given, and of the schema.
+        Directory of the settings, which have what is not given, and of the schemas.
 
     Raises
     ------
     ValueError
         In one line: which value, where, and what it must be.
     """
-    defaults = str(workflow / "studies.yaml")
-    contents = {defaults: read_file(defaults), **files}
+    settings = read_settings(workflow)
+    defaults = dict(ChainMap(*settings.values()))
+    contents = {**settings, **files}
     config = deepcopy(dict(given))
     for path, content in reversed(contents.items()):
         place_weights(config, path, content)
     if isinstance(chain := config.get("chain"), dict):
         # --config chain='{mu_k: 0.46}' has numbers as text.
         config["chain"] = {name: _as_number(value) for name, value in chain.items()}
-    complete = deepcopy(dict(contents[defaults]))
+    complete = deepcopy(defaults)
     update_config(complete, config)
-    schema = workflow / "schemas/config.schema.yaml"
-    check_config(complete, contents[defaults], schema, contents)
+    check_config(complete, defaults, workflow / "config.schema.yaml", contents)
     return complete
+
+
+def read_settings(workflow: Path) -> dict[str, dict[str, Any]]:
+    """What the settings of all studies, and those of each, give a configuration, by
+    file."""
+    shared = workflow / "settings.yaml"
+    of_studies = sorted(workflow.glob("studies/*/settings.yaml"))
+    return {str(shared): read_file(shared)} | {
+        str(path): {path.parent.name: read_file(path)} for path in of_studies
+    }
 
 
 def read_file(path: AnyPath) -> dict[str, Any]:
@@ -136,8 +147,8 @@ def check_config(
     YAML, too.
     """
     schema = read_file(schema_path)
-    for path in Path(schema_path).parent.glob("*.schema.yaml"):
-        section = path.name.partition(".")[0]
+    for path in Path(schema_path).parent.glob("studies/*/schema.yaml"):
+        section = path.parent.name
         if section in config:
             schema["properties"][section] = read_file(path)
     _add_keys(schema, studies)

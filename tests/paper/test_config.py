@@ -14,7 +14,7 @@ from maegawa2010.config import check_config, load_config, read_file
 from maegawa2010.scenes import scene_slider
 from precursors.model.chain import Chain
 
-SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
+SCHEMA = ROOT / "workflow/config.schema.yaml"
 MISSING = object()
 STEEP = {"title": "steep", "theta": 0.9}
 

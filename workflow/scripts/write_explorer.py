@@ -1,10 +1,10 @@
 """Write the explorer: one HTML page that solves the chain in the browser."""
 
 import pandas as pd
-from job import job
 
 from maegawa2010.explorer.data import explorer_data
 from maegawa2010.explorer.page import write_explorer
+from maegawa2010.support.job import job
 
 TABLES = ("members", "shares", "balance", "resolution")
 

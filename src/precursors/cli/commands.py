@@ -1,7 +1,5 @@
 """The commands: each takes its options, and prints or writes what was asked for."""
 
-from __future__ import annotations
-
 import json
 import logging
 import shlex
@@ -15,11 +13,11 @@ from typing import Any
 import numpy as np
 
 from precursors.cli import Refused
-from precursors.cli.measured import (
+from precursors.cli.files import (
     check_choices,
     given,
     how_to_read,
-    read_data,
+    measured_data,
     several,
     tell,
 )
@@ -116,7 +114,7 @@ def plot(arguments: Namespace) -> None:
         raise ValueError(f"--data is needed with {', '.join(unused)}")
     run = run_of(arguments)
     if arguments.data is not None:
-        how["data"] = read_data(arguments, run)
+        how["data"] = measured_data(arguments, run)
     drawn: Any = plot(run, look=look, **how)
     if arguments.data is not None:
         for line in drawn.get_label().splitlines():
