@@ -14,21 +14,9 @@ from os import PathLike
 from string import Template
 from typing import Any
 
-from precursors.model.chain import SLIDER, parse_theta
 from precursors.support.files import write_text
 
 SCRIPTS = ("drawing.js", "story.js", "studies.js", "figures.js", "explorer.js")
-
-
-def proved_slider(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Arguments of `Chain.from_slider` of a chain of the configuration's
-    `horizon.proved`."""
-    slider = {
-        name: values.get(name, value)
-        for name, value in SLIDER.items()
-        if name != "weights"
-    }
-    return slider | {"theta": parse_theta(values.get("theta", 0))}
 
 
 def write_explorer(data: Mapping[str, Any], path: str | PathLike[str]) -> None:
