@@ -220,7 +220,7 @@ def test_docs_tell_how_fragile_the_numbers_are():
     assert_told(page, sentence, share.loc["same_mu_sapp"], DRAWS)
     sentence = "In none (below {} %) all six"
     assert_told(page, sentence, [share["high"]["all_six"]], DRAWS)
-    caption = "workflow/report/hero.rst"
+    caption = "workflow/studies/printed_digits/caption.rst"
     assert_told(caption, "of {} sliders", digits["n"][:1])
 
 

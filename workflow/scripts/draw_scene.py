@@ -1,8 +1,5 @@
-"""Draw the load and the slips of a scene."""
-
-from drawing import save
-from job import job, read
-
+from maegawa2010.support.drawing import save
+from maegawa2010.support.job import job, read
 from precursors.figures import scene, style
 from precursors.support.files import read_table
 

@@ -81,10 +81,10 @@ def draw(
     with style.page(style.COLUMN_MM, height_mm, look) as figure:
         axes = figure.subplots()
         axes.set_title(style.plain(title), loc="left", wrap=True)
-        told = [_beside(slips, each) for each in data]
-        for each, label, marker in zip(data, told, cycle(MARKERS), strict=False):
+        labels = [_beside(slips, each) for each in data]
+        for each, label, marker in zip(data, labels, cycle(MARKERS), strict=False):
             axes.plot(*each.points.T, **MEASURED, marker=marker, label=label)
-        figure.set_label("\n".join(" ".join(label.split()) for label in told))
+        figure.set_label("\n".join(" ".join(label.split()) for label in labels))
         draw_lengths(axes, slips, weights, in_place)
         style.draw_key(figure, ncols=2 if in_place else 1)
     return figure

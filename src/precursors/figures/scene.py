@@ -1,5 +1,5 @@
 """Figs. 10-12, and any other scene: the tangential load over time, with a magnified view
-up to the first global slip, and when and where blocks slipped."""
+about the first global slip, and when and where blocks slipped."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -19,7 +19,7 @@ CURVE_MM = 62.0  # of the load alone
 KEY_MM = 11.4
 MEASURED_MM = 9.0  # of an entry of the key for what was measured
 NARROW_MM = 150.0  # below this width the magnified view stands below, not beside
-ZOOM_END = 1.04  # of the magnified view, in times of the first global slip
+ZOOM = (0.66, 1.03)  # the magnified view, in times of the first global slip
 KEY_WIDTH = 7.25  # of a column of the key, in mm per pt of the letters
 
 # What an event is to the reader: its look, from those behind to those in front.
@@ -45,7 +45,7 @@ TO_THE_EDGE: Options = {
     "markeredgewidth": 0.7,
     "label": "reaches the leading edge, but not all at once",
 }
-MAGNIFIED = "Grey part, magnified; arrows: counted in Fig. 13"
+MAGNIFIED = "Grey part, magnified; arrows: precursors counted"
 ARROW: Options = {
     "arrowstyle": "-|>,head_length=0.25,head_width=0.12",
     "color": style.PARTIAL,
@@ -67,8 +67,8 @@ def draw(
     look: style.Look = style.LOOK,
     has_key: bool = True,
 ) -> Figure:
-    """Draw F_X(t) and all slip events, and F_X magnified up to the first global slip,
-    with arrows at the events counted.
+    """Draw F_X(t) and all slip events, and F_X magnified about the first global slip,
+    with arrows at the events counted before it.
 
     An event that goes on when the run ends is a band. The slip table may be empty; the
     trace is straight between its rows. `data` are measured loads [N], or front lengths
@@ -78,7 +78,7 @@ def draw(
     slips = _with_kinds(slips)
     first_s = slips.loc[slips["is_global"], "onset_s"].min()
     start, end = _span(trace, data)
-    end = np.fmax(end, ZOOM_END * first_s)
+    end = np.fmax(end, ZOOM[1] * first_s)
     is_narrow = width_mm < NARROW_MM
     height_mm = HEIGHT_MM * (1 + 1.2 * is_narrow) + MEASURED_MM * len(data)
     height_mm += KEY_MM * (1 + is_narrow) * has_key
@@ -103,13 +103,13 @@ def draw(
         _draw_measured_loads(load, data, trace, first_s)
         _draw_measured_lengths(fronts, data)
         if "I" in panels:
+            view = (ZOOM[0] * first_s, ZOOM[1] * first_s)
             for panel in (load, fronts):
-                panel.axvspan(0, ZOOM_END * first_s, color=style.PALE, lw=0, zorder=0)
-            _draw_inset(panels["I"], slips, trace, first_s)
+                panel.axvspan(*view, color=style.PALE, lw=0, zorder=0)
+            _draw_inset(panels["I"], slips, trace, view)
             # Points beyond the inset would stretch its axis of F_X.
-            end = ZOOM_END * first_s
             seen = [
-                replace(each, points=each.points[each.points[:, 0] <= end])
+                replace(each, points=each.points[_within(each.points[:, 0], view)])
                 for each in data
             ]
             _draw_measured_loads(panels["I"], seen, trace, first_s)
@@ -156,10 +156,10 @@ def _draw_measured_loads(
     """Draw measured loads; the figure gets lines of text that say how far they are."""
     curve = trace[LOAD].to_numpy()
     loads = [each for each in data if not each.are_lengths]
-    told = [each.beside(curve, first_s, "N") for each in loads]
-    for each, label, line in zip(loads, told, cycle(LINES), strict=False):
+    labels = [each.beside(curve, first_s, "N") for each in loads]
+    for each, label, line in zip(loads, labels, cycle(LINES), strict=False):
         axes.plot(*each.points.T, **MEASURED, linestyle=line, label=label)
-    axes.figure.set_label("\n".join(" ".join(label.split()) for label in told))
+    axes.figure.set_label("\n".join(" ".join(label.split()) for label in labels))
 
 
 def _draw_measured_lengths(axes: Axes, data: Sequence[Measured]) -> None:
@@ -226,27 +226,35 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame) -> None:
 
 
 def _draw_inset(
-    axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame, first_s: float
+    axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame, view: tuple[float, float]
 ) -> None:
-    """Draw F_X up to the first global slip, with its drops, and arrows at those counted."""
-    end = ZOOM_END * first_s
-    _draw_load(axes, slips, trace, end)
+    """Draw F_X about the first global slip, with the drops before it, and arrows at
+    those counted."""
+    start, end = view
+    at_ends = np.interp(view, *trace[LOAD].to_numpy().T)
+    inside = trace[_within(trace["time_s"], view)]
+    ends = pd.DataFrame(dict(zip(LOAD, (view, at_ends), strict=True)))
+    _draw_load(axes, slips, pd.concat([ends[:1], inside, ends[1:]]), end)
     axes.margins(y=0.1)
-    axes.set_xlim(0, end)
+    axes.set_xlim(start, end)
     # A tick at the edge would make the panel of one scene narrower than that of another.
     ticks = axes.get_xticks()
-    axes.set_xticks(ticks[(ticks >= 0) & (ticks < 0.98 * end)])
+    axes.set_xticks(ticks[(ticks >= start) & (ticks < end - 0.02 * (end - start))])
     axes.set_title(MAGNIFIED, loc="left", pad=4, wrap=True)
     axes.set_xlabel("Time $t$ [s]")
-    axes.axvline(first_s, **FIRST_GLOBAL)
-    before = slips[slips["onset_s"] < first_s]
-    for kind, events in before.groupby("kind", observed=True):
+    seen = slips[_within(slips["onset_s"], view)]
+    for kind, events in seen.groupby("kind", observed=True):
         drops = events[["onset_s", "load_after_N", "load_before_N"]].to_numpy().T
         axes.vlines(*drops, **KINDS[str(kind)])
-    counted: Any = before[before["counted"]].itertuples()
+    counted: Any = seen[seen["counted"] & ~seen["is_global"]].itertuples()
     for event in counted:
         point = (event.onset_s, event.load_before_N)
         axes.annotate("", point, (0, 12), textcoords="offset points", arrowprops=ARROW)
+
+
+def _within(times: Any, view: tuple[float, float]) -> Any:
+    """Which times are in the magnified view."""
+    return (times >= view[0]) & (times <= view[1])
 
 
 def _title(slips: pd.DataFrame, title: str) -> str:

@@ -258,8 +258,8 @@ class Measured:
             return self.label
         rms = np.sqrt(np.mean((values - np.interp(seen, *curve.T)) ** 2))
         until = "end" if isnan(first_global) else "first global slip"
-        first = f"{self.label}: {rms:.3g} {unit} rms from the run"
-        return f"{fill(first, MOST_LETTERS)}\nup to its {until}"
+        distance = f"{rms:.3g} {unit} rms from the run up to its {until}"
+        return fill(f"{self.label}: {distance}", MOST_LETTERS)
 
 
 def plain(text: str) -> str:

@@ -12,7 +12,7 @@ from maegawa2010 import printed
 from precursors.figures import precursor_lengths, style
 from precursors.figures.style import Options
 
-HEIGHT_MM = 88.0
+HEIGHT_MM = 78.0
 WIDTH = 0.3  # of a bar, of which those of three loadings stand beside each other
 TITLE: Options = {"fontsize": 8.6, "fontweight": "bold", "loc": "left"}
 OTHER = 0.4  # share of the colour where the count is not the paper's
@@ -88,5 +88,5 @@ def _draw_counts(axes: Axes, members: pd.DataFrame) -> str:
             color=color,
             fontweight="bold",
         )
-    axes.set(ylabel="Share of runs [%]", ylim=(0, 118))
+    axes.set(ylabel="Share of runs [%]", ylim=(0, 130))
     return f"{', '.join(shares[:-1])} and {shares[-1]}"

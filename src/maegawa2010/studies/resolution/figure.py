@@ -9,7 +9,7 @@ from maegawa2010 import printed
 from precursors.figures import style
 from precursors.figures.style import Options
 
-HEIGHT_MM = 80.0
+HEIGHT_MM = 66.0
 FEWEST = 10  # blocks that are drawn; with fewer, numbers jump from one N to the next
 AGREES = 0.005  # less than so far from mu_k
 MEDIAN: Options = {"linewidth": 1.2}
@@ -26,7 +26,7 @@ BESIDE = 1.04  # of three loadings at one N, in times of N
 # Of the axis of N, in times of the largest, for the names at the ends of lines; these
 # stand at least so far apart, of the height of the panel.
 END_ROOM = 4.5
-APART = 0.06
+APART = 0.075
 
 
 def draw(
@@ -114,6 +114,8 @@ def _name_ends(axes: Axes, medians: pd.DataFrame) -> None:
             transform=axes.transAxes,
             va="center",
             color=style.theta_color(theta),
+            # No dotted line goes through a name.
+            bbox={"facecolor": "white", "linewidth": 0, "pad": 0},
         )
 
 
