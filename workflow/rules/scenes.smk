@@ -106,7 +106,7 @@ rule draw_slips:
             "results/figures/push.svg",
             caption="../report/push.rst",
             category="Reproduction",
-            labels={"figure": "push: why a slip stops where it does"},
+            labels={"figure": "push: what a slip adds and releases, and how far it can reach"},
         ),
         more=collect("results/figures/push.{kind}", kind=MORE_FORMATS),
     log:
