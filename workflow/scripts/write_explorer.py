@@ -22,24 +22,20 @@ def scene_data(
     slider: dict[str, Any],
     slips: pd.DataFrame,
     members: pd.DataFrame,
-    balance: pd.DataFrame,
     resolution: pd.DataFrame,
 ) -> dict[str, Any]:
     """What the page has of a scene: see `write_explorer`."""
     found = summary_of(slips)
     draws = members.query("scene == @scene and draw > 0")["mu_sapp"].dropna()
     agree = (draws - printed.MU_SAPP).abs() <= TOLERANCES["mu_sapp"]
-    own = balance[balance["n_blocks"] == slider["n_blocks"]]
-    mean = own.set_index("scene")["mean"].get(scene)
     medians = resolution.query("scene == @scene and quantity == 'mu_sapp'")
-    medians = medians[medians["n_blocks"] >= slider["n_blocks"]]
+    finest = medians.loc[medians["n_blocks"].idxmax()]
     return {
         "slider": slider,
         "mu_sapp": found.mu_sapp if found.reached else None,
-        "mean": None if pd.isna(mean) else mean,
         "draws": draws.round(4).tolist(),
         "within": {"k": int(agree.sum()), "n": len(draws)},
-        "medians": medians[["n_blocks", "q05", "q50", "q95"]].to_numpy().tolist(),
+        "finest": {"n_blocks": int(finest["n_blocks"]), "mu_sapp": finest["q50"]},
     }
 
 
@@ -52,10 +48,7 @@ def tilted(slider: dict[str, Any]) -> dict[str, float]:
 
 with job() as snakemake:
     params = snakemake.params
-    tables = [
-        pd.read_csv(snakemake.input[name])
-        for name in ("members", "balance", "resolution")
-    ]
+    tables = [pd.read_csv(snakemake.input[name]) for name in ("members", "resolution")]
     slips = map(pd.read_csv, snakemake.input.slips)
     shares = pd.read_csv(snakemake.input.shares).query("question == 'all_six'")
     scenes = [
