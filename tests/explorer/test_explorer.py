@@ -281,12 +281,13 @@ def test_each_slip_has_the_reason_why_it_goes_no_farther(page, file, theta):
         end = np.interp(slip.load_before_N, carried, np.arange(11))
         if slip.front == 10:
             spare = slip.load_before_N - carried[-1]
-            expected = f", the last, with {spare:#.4g} N of the push to spare."
+            expected = f", the last, with {spare:.4g} N of the push to spare."
         elif slip.front < end - 1:
             after = run.spring_forces([slip.end_s])[0]
             net = after[slip.front] - np.append(after, 0)[slip.front + 1]
             most = chain.mu_s * chain.weights[slip.front]
-            expected = f"{slip.front + 1} then bears {net:#.4g} N and holds {most:#.4g} N."
+            numbers = f"bears {abs(net):.4g} N and holds {most:.4g} N."
+            expected = f"block {slip.front + 1} then {numbers}"
         else:
             expected = ", where the line ends."
             assert slip.front <= end + 1

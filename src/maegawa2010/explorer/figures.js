@@ -125,14 +125,14 @@ function reasonOf(one) {
     left -= share * slider.mu_k * load;
   }
   if (front === n) {
-    return left > 0 ? `, the last, with ${quantity(left, "N")} of the push to spare.`
+    return left > 0 ? `, the last, with ${digits(left)} N of the push to spare.`
       : ", the last, which the line does not reach.";
   }
   if (front > spent + 1) return ", beyond the end of the line.";
   if (front >= spent - 1) return ", where the line ends.";
   const after = restForces(run.events.indexOf(one) + 1), net = after[front + 1] - after[front + 2];
-  return `, short of the end of the line: block ${front + 1} then bears ${quantity(net, "N")} and holds
-    ${quantity(strength[front + 1], "N")}.`;
+  return `, short of the end of the line: block ${front + 1} then bears
+    ${digits(Math.abs(net))} N and holds ${digits(strength[front + 1])} N.`;
 }
 
 // What is heard of a figure.
