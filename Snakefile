@@ -9,18 +9,18 @@ report: "workflow/report/workflow.rst"
 include: "workflow/common.smk"  # config.yaml, its scenes and their chains, digests of code
 # The paper
 include: "workflow/rules/scenes.smk"  # every transition, slips, mu_sapp, Figs. 10-13
-include: "workflow/rules/paper.smk"  # Eq. 15, claims, Fig. 9, paper.pdf
-# Studies on which claims rest, or other studies
-include: "workflow/rules/noise.smk"  # noise in the normal loads
-include: "workflow/rules/printed_digits.smk"  # sliders with the same printed inputs
-include: "workflow/rules/resolution.smk"  # the number of blocks
-include: "workflow/rules/horizon.smk"  # proofs, and how errors grow
-include: "workflow/rules/models.smk"  # smaller models, and which answers which question
+include: "workflow/rules/paper.smk"  # Eq. 15, claims, Fig. 9, paper.pdf, supplement.pdf
+# Studies on which claims rest, or other studies; `snakemake --list` says what each is about
+include: "workflow/studies/noise/rules.smk"
+include: "workflow/studies/printed_digits/rules.smk"
+include: "workflow/studies/resolution/rules.smk"
+include: "workflow/studies/horizon/rules.smk"
+include: "workflow/studies/models/rules.smk"
 # Studies on which no claim rests
-include: "workflow/rules/balance.smk"  # the distance from kinetic balance, the mean of F_X
-include: "workflow/rules/failures.smk"  # where methods fail
-include: "workflow/rules/step_sweep.smk"  # counts against the step of a Runge-Kutta method
-include: "workflow/rules/work_precision.smk"  # accuracy against computing time
+include: "workflow/studies/balance/rules.smk"
+include: "workflow/studies/failures/rules.smk"
+include: "workflow/studies/step_sweep/rules.smk"
+include: "workflow/studies/work_precision/rules.smk"
 # All of it in a browser
 include: "workflow/rules/explorer.smk"
 

@@ -127,7 +127,7 @@ class Workspace:
 def parse_the_code() -> None:
     """Read all modules once instead of in every run of Snakemake, which then knows the
     syntax trees of those that a test leaves as they are."""
-    for script in (ROOT / "workflow/scripts").glob("*.py"):
+    for script in (ROOT / "workflow").rglob("*.py"):
         digest_code(ROOT, script.stem)
 
 
@@ -155,8 +155,4 @@ def copy_workflow(path: Path) -> Workspace:
     unneeded = shutil.ignore_patterns("__pycache__", "*.png", "results")
     for name in ("workflow", "src", "paper", "profiles"):
         shutil.copytree(ROOT / name, path / name, ignore=unneeded)
-    # Of a job with a message Snakemake prints neither the rule nor the outputs.
-    for file in (path / "workflow").rglob("*.smk"):
-        text = file.read_text(encoding="utf-8")
-        file.write_text(re.sub(r"\n +message:\n.+", "", text), encoding="utf-8")
     return Workspace(path)

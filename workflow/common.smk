@@ -1,5 +1,3 @@
-# What the rules share: the configuration, its scenes and their chains, digests of code
-
 import os
 import shlex
 import sys
@@ -46,6 +44,7 @@ except ValueError as error:
     raise WorkflowError(str(error)) from None
 if not os.access("results" if os.path.exists("results") else ".", os.W_OK | os.X_OK):
     raise WorkflowError("results must be a directory that can be written to")
+os.environ.setdefault("NUMBA_NUM_THREADS", "1")  # of a job, as its `threads`
 if os.path.exists(sys.executable):  # and not yet in quotes
     sys.executable = shlex.quote(sys.executable)  # Snakemake's commands have it as it is
 

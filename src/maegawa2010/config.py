@@ -4,6 +4,7 @@ thing wrong with it is said in one line."""
 import math
 import os
 import re
+from collections import ChainMap
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from copy import deepcopy
@@ -99,29 +100,40 @@ def load_config(
     files
         The contents of the files that it was read from, the most important one last.
     workflow
-        Directory of studies.yaml, which has what is not given, and of the schema.
+        Directory of the settings, which have what is not given, and of the schemas.
 
     Raises
     ------
     ValueError
         In one line: which value, where, and what it must be.
     """
-    defaults = str(workflow / "studies.yaml")
-    contents = {defaults: read_file(defaults), **files}
+    settings = read_settings(workflow)
+    defaults = dict(ChainMap(*settings.values()))
+    contents = {**settings, **files}
     config = deepcopy(dict(given))
     for path, content in reversed(contents.items()):
         place_weights(config, path, content)
     if "chain" in config:
         config["chain"] = read_numbers(config["chain"])
-    check_sections(config, contents[defaults])
-    complete = deepcopy(dict(contents[defaults]))
+    check_sections(config, defaults)
+    complete = deepcopy(defaults)
     update_config(complete, config)
-    check_config(complete, workflow / "schemas/config.schema.yaml", contents)
+    check_config(complete, workflow / "config.schema.yaml", contents)
     if complete["figure"]:
         from precursors.figures.style import Look  # slow
 
         Look(**complete["figure"])
     return complete
+
+
+def read_settings(workflow: Path) -> dict[str, dict[str, Any]]:
+    """What the settings of all studies, and those of each, give a configuration, by
+    file."""
+    shared = workflow / "settings.yaml"
+    of_studies = sorted(workflow.glob("studies/*/settings.yaml"))
+    return {str(shared): read_file(shared)} | {
+        str(path): {path.parent.name: read_file(path)} for path in of_studies
+    }
 
 
 def read_file(path: AnyPath) -> dict[str, Any]:
@@ -185,8 +197,8 @@ def check_config(
     important one last. The JSON schema is YAML, too.
     """
     schema = read_file(schema_path)
-    for path in Path(schema_path).parent.glob("*.schema.yaml"):
-        section = path.name.partition(".")[0]
+    for path in Path(schema_path).parent.glob("studies/*/schema.yaml"):
+        section = path.parent.name
         if section in config:
             schema["properties"][section] = read_file(path)
     try:

@@ -15,7 +15,6 @@ from places import GOLDEN, RESULTS, ROOT
 from precursors.figures import style
 from precursors.support.files import write_whole
 
-SMALL = GOLDEN / "small"
 # What is read without a build.
 BUILT = {
     "explorer.html": "docs/explorer.html",
@@ -24,13 +23,15 @@ BUILT = {
 }
 
 
-def pictures() -> dict[str, Any]:
-    """All small pictures by name: a test file has those of its subject in PICTURES."""
-    drawn: dict[str, Any] = {}
-    for file in sorted((ROOT / "tests").glob("*/test_*.py")):
+def pictures() -> dict[Path, Any]:
+    """All small pictures by file: a test has those of its subject in PICTURES, and they
+    lie beside it."""
+    drawn: dict[Path, Any] = {}
+    for file in sorted((ROOT / "tests").rglob("test_*.py")):
         if "\nPICTURES = {" in file.read_text(encoding="utf-8"):
-            module = import_module(f"{file.parent.name}.{file.stem}")
-            drawn |= module.PICTURES
+            module = file.relative_to(ROOT / "tests").with_suffix("")
+            for name, how in import_module(".".join(module.parts)).PICTURES.items():
+                drawn[file.with_name(f"{name}.png")] = how
     return drawn
 
 
@@ -45,8 +46,8 @@ def main() -> None:
     """Copy golden files from results/, and make the small ones."""
     for file in codecheck.manifest(ROOT):
         shutil.copy(ROOT / file, GOLDEN)
-    for name, how in pictures().items():
-        write_picture(SMALL / f"{name}.png", how)
+    for path, how in pictures().items():
+        write_picture(path, how)
     write_whole(example.PICTURE, example.picture())
     for name, committed in BUILT.items():
         shutil.copyfile(RESULTS / name, ROOT / committed)

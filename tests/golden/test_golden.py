@@ -1,5 +1,5 @@
-"""Tables and figures that the workflow wrote to results, and small pictures, are those
-in this directory (`make golden` replaces them)."""
+"""Tables and figures that the workflow wrote to results are those in this directory, and
+small pictures those beside their tests (`make golden` replaces them)."""
 
 import re
 from pathlib import Path
@@ -7,7 +7,7 @@ from pathlib import Path
 import codecheck
 import pandas as pd
 import pytest
-from golden.regenerate import BUILT, SMALL, pictures, write_picture
+from golden.regenerate import BUILT, pictures, write_picture
 from pdf_text import pages_of
 from places import GOLDEN, RESULTS, ROOT
 
@@ -19,11 +19,11 @@ def test_a_table_or_figure_is_the_golden_one(file):
     assert codecheck.difference(ROOT / file, GOLDEN / Path(file).name) == ""
 
 
-@pytest.mark.parametrize("name", PICTURES)
-def test_a_small_picture_is_the_golden_one(name, tmp_path):
-    drawn = tmp_path / f"{name}.png"
-    write_picture(drawn, PICTURES[name])
-    assert codecheck.difference(drawn, SMALL / drawn.name) == ""
+@pytest.mark.parametrize("path", PICTURES, ids=lambda path: path.stem)
+def test_a_small_picture_is_the_golden_one(path, tmp_path):
+    drawn = tmp_path / path.name
+    write_picture(drawn, PICTURES[path])
+    assert codecheck.difference(drawn, path) == ""
 
 
 def test_every_check_of_eq_15_holds():

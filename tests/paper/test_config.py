@@ -13,7 +13,7 @@ from maegawa2010.config import check_config, check_sections, read_file, read_num
 from maegawa2010.scenes import scene_slider
 from precursors.model.chain import Chain
 
-SCHEMA = ROOT / "workflow/schemas/config.schema.yaml"
+SCHEMA = ROOT / "workflow/config.schema.yaml"
 MISSING = object()
 STEEP = {"title": "steep", "theta": 0.9}
 

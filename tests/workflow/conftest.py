@@ -25,7 +25,7 @@ def workspace(tmp_path: Path) -> Workspace:
 def _finished(tmp_path_factory: pytest.TempPathFactory) -> Workspace:
     workspace = copy_workflow(tmp_path_factory.mktemp("finished") / "copy")
     workspace.add_scenes(MORE_SCENE)
-    workspace.edit("workflow/studies.yaml", "chunks: 1", "chunks: 2")
+    workspace.edit("workflow/settings.yaml", "chunks: 1", "chunks: 2")
     outcome = workspace.pretend("all")
     assert outcome.code == 0, outcome.text
     return workspace

@@ -31,7 +31,7 @@ def test_words_format_and_touch_run_nothing_again(finished):
     before = finished.results()
     for file in [
         *finished.path.glob("src/**/*.py"),
-        *finished.path.glob("workflow/scripts/*.py"),
+        *finished.path.glob("workflow/**/*.py"),
     ]:
         text = file.read_text(encoding="utf-8").replace('"""', '"""Other words. ', 1)
         file.write_text(f"{text}\n\n# more words\n", encoding="utf-8")
@@ -138,11 +138,11 @@ def test_an_interrupted_study_goes_on_where_it_was_and_an_edit_renews_what_it_to
     tables = [f"results/tables/{study}.csv" for study in (digits, noise)]
     next((finished.path / "results/ensembles" / digits).iterdir()).unlink()
     (finished.path / tables[0]).unlink()
-    for old, new, expected in (
-        ("seed: 2010", "seed: 2011", {digits: 1, noise: 2}),
-        ("draws: 400", "draws: 300", {digits: 2, noise: 2}),
+    for study, old, new, expected in (
+        ("noise", "seed: 2010", "seed: 2011", {digits: 1, noise: 2}),
+        ("printed_digits", "draws: 400", "draws: 300", {digits: 2, noise: 2}),
     ):
-        finished.edit("workflow/studies.yaml", old, new)
+        finished.edit(f"workflow/studies/{study}/settings.yaml", old, new)
         made = finished.run("-n", *tables).made
         assert (
             Counter(name.split("/")[2] for name in made if "/ensembles/" in name)

@@ -66,8 +66,8 @@ def command(section):
 
 def test_the_scene_and_the_study_shown_are_made(documented):
     planned = documented.run("-n", "--forceall", *command("A scene"), "all")
-    assert {"simulate_scene steep", "draw_scene steep"} <= planned.jobs
-    assert "measuring how long slips last" in planned.text
+    wanted = {"simulate_scene steep", "draw_scene steep", "draw_durations"}
+    assert wanted <= planned.jobs
     (documented.path / "results/tables").mkdir(parents=True)
     slips = ROOT / "tests/golden/fig10_slips.csv"
     shutil.copy(slips, documented.path / "results/tables")
@@ -80,7 +80,7 @@ def test_the_scene_and_the_study_shown_are_made(documented):
 # colours of its line and of other methods.
 MORE = """
 from runpy import run_path
-run_path("tests/studies/test_durations.py")["test_short_slips_are_left_out"]()
+run_path("tests/studies/durations/test_durations.py")["test_short_slips_are_left_out"]()
 from matplotlib.colors import to_hex
 from precursors import Chain, simulate
 from precursors.benchmark.compare import Truth

@@ -1,6 +1,3 @@
-# The page on which the loads are changed and the blocks move
-
-
 rule write_explorer:
     """Write the page on which the loads are changed and the blocks move."""
     input:
@@ -26,8 +23,6 @@ rule write_explorer:
         proved=config["horizon"]["proved"],
         numbers={"duration": config["duration"], "tolerance": config["horizon"]["tolerance"]},
         code=digest("write_explorer"),
-    message:
-        "writing the page results/explorer.html"
     script:
         "../scripts/write_explorer.py"
 

@@ -1,5 +1,3 @@
-# Eq. 15, claims, Fig. 9, paper.pdf, supplement.pdf
-
 from maegawa2010.paper.inputs import CLAIM_TABLES, POINT_TABLES
 from maegawa2010.paper.shown import results_shown
 
@@ -21,8 +19,6 @@ rule eq15:
     params:
         duration=config["duration"],
         code=digest("eq15"),
-    message:
-        "checking Eq. 15 by algebra and in the runs"
     script:
         "../scripts/eq15.py"
 
@@ -42,8 +38,6 @@ if set(PAPERS_SCENES) <= set(FIG13):
         localrule: True
         params:
             code=digest("judge_claims"),
-        message:
-            "judging the paper's claims"
         script:
             "../scripts/judge_claims.py"
 
@@ -63,8 +57,6 @@ rule fig09:
     localrule: True
     params:
         code=digest("fig09"),
-    message:
-        "drawing Fig. 9"
     script:
         "../scripts/fig09.py"
 
@@ -85,8 +77,6 @@ rule write_paper:
     localrule: True
     params:
         code=digest("write_paper"),
-    message:
-        "setting {output}"
     script:
         "../scripts/write_paper.py"
 

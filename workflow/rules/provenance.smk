@@ -1,6 +1,3 @@
-# Where the results come from; names that scenes may not have
-
-
 rule write_provenance:
     """Write the versions, the machine, and checksums of all inputs and results."""
     input:
@@ -14,8 +11,6 @@ rule write_provenance:
         root=str(ROOT),
         config=config,
         code=digest("write_provenance"),
-    message:
-        "writing where the results come from"
     script:
         "../scripts/write_provenance.py"
 

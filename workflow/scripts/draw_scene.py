@@ -1,8 +1,5 @@
-"""Draw the load and the slips of a scene."""
-
-from drawing import save
-from job import job, read
-
+from maegawa2010.support.drawing import save
+from maegawa2010.support.job import job, read
 from precursors.figures import scene, style
 from precursors.support.files import read_table
 
@@ -15,5 +12,6 @@ with job() as snakemake:
         read(read_table, snakemake.input.trace),
         title=f"{name}: {params.title}",
         look=look,
+        has_key=params.has_key,
     )
     save(figure, snakemake.output, params.title, look)

@@ -1,8 +1,5 @@
-"""Draw three slips of a scene: the push along the row, and the blocks in slow motion."""
-
-from drawing import save
-from job import job, read
-
+from maegawa2010.support.drawing import save
+from maegawa2010.support.job import job, read
 from precursors.figures import push, style, wave
 from precursors.solver.run import Run
 from precursors.support.files import read_table

@@ -1,8 +1,5 @@
-"""Check Eq. 15 by algebra and in the runs."""
-
-from job import job, read_all, write_tables
-
 from maegawa2010.paper.eq15 import eq15_table
+from maegawa2010.support.job import job, read_all, write_tables
 from precursors.solver.run import Run
 
 with job() as snakemake:

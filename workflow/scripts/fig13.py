@@ -1,8 +1,5 @@
-"""Draw the lengths of precursors against the load (Fig. 13)."""
-
-from drawing import save
-from job import job, read_all
-
+from maegawa2010.support.drawing import save
+from maegawa2010.support.job import job, read_all
 from precursors.figures import precursor_lengths, style
 from precursors.support.files import read_table
 

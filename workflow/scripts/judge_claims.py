@@ -1,9 +1,6 @@
-"""Judge the paper's claims by the tables."""
-
-from job import job, read_all, write_tables
-
 from maegawa2010.paper.claims import evaluate
 from maegawa2010.paper.open_points import open_points_table
+from maegawa2010.support.job import job, read_all, write_tables
 from precursors.support.files import read_table
 
 with job() as snakemake:

@@ -1,10 +1,6 @@
-"""Compare mu_sapp and other numbers of the scenes with the paper's, under several
-readings of its words."""
-
-from job import job, read_all, write_tables
-
 from maegawa2010.paper.definitions import definitions_table
 from maegawa2010.paper.scene_numbers import measures_table, reproduction_table
+from maegawa2010.support.job import job, read_all, write_tables
 from precursors.solver.run import Run
 from precursors.support.files import read_table
 

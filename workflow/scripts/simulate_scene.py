@@ -1,14 +1,11 @@
-"""Simulate a scene: its run, its slips and its load curve.
-
-The slip table has every event; `counted` tells those of Fig. 13. The trace is the exact
+"""The slip table has every event; `counted` tells those of Fig. 13. The trace is the exact
 tangential load at points between which it is straight to 1e-4 N, every transition among
 them. A run that meets its cap on transitions is kept too.
 """
 
 from pathlib import Path
 
-from job import job
-
+from maegawa2010.support.job import job
 from precursors.analysis.load_curve import load_trace
 from precursors.analysis.slips import slip_table
 from precursors.model.chain import Chain

@@ -3,13 +3,13 @@
 from typing import Any
 
 import pandas as pd
-from job import job
 
 from maegawa2010 import printed
 from maegawa2010.explorer.page import proved_slider, write_explorer
 from maegawa2010.studies.horizon.chains import chain_duration
 from maegawa2010.studies.members import TOLERANCES
 from maegawa2010.studies.printed_digits.tables import HALF_A_DIGIT
+from maegawa2010.support.job import job
 from maegawa2010.support.run_statistics import NOISE
 from precursors import Chain, apparent_friction, simulate
 from precursors.analysis.summary import summary_of

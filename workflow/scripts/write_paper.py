@@ -7,8 +7,7 @@ import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
-from job import job
-
+from maegawa2010.support.job import job
 from precursors.support.files import write_whole
 
 # No page says when it was made.

@@ -1,10 +1,7 @@
-"""Write where the results come from."""
-
 import json
 from pathlib import Path
 
-from job import job
-
+from maegawa2010.support.job import job
 from maegawa2010.support.provenance import provenance
 from precursors.support.files import write_text
 

@@ -14,9 +14,18 @@ from precursors.model.chain import Chain
 from precursors.solver.many import simulate_many
 from precursors.solver.run import Record, Run
 from precursors.solver.simulate import TransitionLimitError
+from precursors.support.files import write_table
 
 # Runs of a batch are in memory at the same time: some 200 of 10 blocks, 10 of 200.
 BLOCKS_PER_BATCH = 2000
+
+
+def run_chunk(study: Study, chunk: str, path: str) -> None:
+    """Run one chunk of a study, "1of4" to "4of4": every n-th member, a row each with
+    what its run gave."""
+    i, n = map(int, chunk.split("of"))
+    found = run_members(study.chunk(i, n))
+    write_table(found.rename_axis("member").reset_index(), path)
 
 
 def run_members(study: Study) -> pd.DataFrame:

@@ -20,7 +20,10 @@ def digest_code(root: str | Path, script: str) -> str:
         If a file cannot be read.
     """
     sources = Path(root, "src")
-    waiting = [Path(root, "workflow/scripts", f"{script}.py")]
+    waiting = [*Path(root, "workflow").glob(f"*/{script}.py")]
+    waiting += Path(root, "workflow").glob(f"studies/*/{script}.py")
+    if not waiting:
+        raise FileNotFoundError(f"workflow: no script {script}.py")
     found: dict[Path, str] = {}
     while waiting:
         if (path := waiting.pop()) not in found:

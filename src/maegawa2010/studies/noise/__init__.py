@@ -1,1 +1,0 @@
-"""Noise in the normal loads. Claims and `resolution` rest on it."""

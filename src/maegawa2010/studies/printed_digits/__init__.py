@@ -1,1 +1,0 @@
-"""Sliders with the same printed inputs. Claims and the page rest on it."""

@@ -1,1 +1,0 @@
-"""Convergence with the number of blocks. Claims rest on it."""

@@ -1,1 +1,0 @@
-"""The paper's numbers against the step of a Runge-Kutta method."""

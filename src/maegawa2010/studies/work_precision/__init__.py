@@ -1,1 +1,0 @@
-"""Accuracy against computing time."""

@@ -1,0 +1,119 @@
+"""The Lyapunov exponent is that of the linearised motion, a rate, and as uncertain as
+it says."""
+
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+import scipy
+from chains import SLIDER
+
+from maegawa2010.studies.horizon import figure, lyapunov
+from maegawa2010.studies.horizon.lyapunov import lyapunov_exponent, lyapunov_table
+from maegawa2010.studies.horizon.tables import proof_tables
+from precursors import simulate
+from precursors.proof import ExactChain, certify
+
+# Exponents [1/s] that the linearised motion gave for the scenes.
+LINEARISED = {"-5/6": 1.657, "0": 2.164, "5/6": 1.909}
+
+
+@pytest.fixture
+def exponent_of(monkeypatch):
+    """The exponent of made-up events: which transitions begin them, growth, and times of
+    transitions."""
+
+    def exponent(onset, growth, time):
+        monkeypatch.setattr(lyapunov, "_growth", lambda _: (time[onset], growth))
+        return lyapunov_exponent(None)
+
+    return exponent
+
+
+@pytest.mark.parametrize("theta", LINEARISED)
+def test_the_exponents_are_those_of_the_linearised_motion(theta):
+    exponent = lyapunov_exponent(simulate(SLIDER(theta=theta), 100.0))
+    # Beyond the predictability time another rounding gives another run, and a mean over
+    # it another value.
+    assert exponent["exponent_per_s"] == pytest.approx(
+        LINEARISED[theta], abs=exponent["uncertainty_per_s"]
+    )
+    assert exponent["uncertainty_per_s"] < exponent["exponent_per_s"]
+
+
+def test_the_exponent_is_a_rate_and_does_not_depend_on_the_distance(monkeypatch):
+    """Four times the mass, half the speed: the same motion, twice as slow, to the last
+    digit."""
+    chain = SLIDER(theta="5/6", drive_velocity=1e-3)
+    slow = replace(chain, mass=4 * chain.mass, drive_velocity=chain.drive_velocity / 2)
+    run = simulate(chain, 2.0)
+    one = lyapunov_exponent(run)
+    other = lyapunov_exponent(simulate(slow, 4.0))
+    assert other["exponent_per_s"] == pytest.approx(
+        one["exponent_per_s"] / 2, rel=1e-12
+    )
+    monkeypatch.setattr(lyapunov, "DISTANCE", 100 * lyapunov.DISTANCE)
+    assert lyapunov_exponent(run)["exponent_per_s"] == pytest.approx(
+        one["exponent_per_s"], rel=1e-3
+    )
+
+
+@pytest.mark.parametrize(("n", "used"), [(21, 20), (40, 20), (41, 40), (400, 380)])
+def test_the_interval_of_an_exponent_is_that_of_the_mean_of_20_stretches(
+    n, used, exponent_of
+):
+    """Of events that each last 0.3 s and 7 transitions, after a tenth that is left
+    out."""
+    n_all = n + round(n * lyapunov.TRANSIENT / (1 - lyapunov.TRANSIENT))
+    growth = np.cumsum(np.random.default_rng(n).normal(0.5, 1.0, n_all))
+    found = exponent_of(7 * np.arange(n_all), growth, 0.3 / 7 * np.arange(7 * n_all))
+    means = np.diff(growth[n_all - 1 - used :: used // 20]) / (used // 20)
+    low, high = scipy.stats.t.interval(0.95, 19, means.mean(), scipy.stats.sem(means))
+    assert found["events"] == used
+    assert found["exponent_per_s"] == pytest.approx(means.mean() / 0.3)
+    assert found["uncertainty_per_s"] == pytest.approx((high - low) / 0.6)
+
+
+def test_a_run_of_one_block_or_of_few_events_has_no_exponent(exponent_of):
+    with pytest.raises(ValueError, match="all differences die out"):
+        lyapunov_exponent(simulate(SLIDER(1, drive_velocity=0.02), 5.0))
+    with pytest.raises(
+        ValueError, match="more than 20 slip events after its transient, but has 20"
+    ):
+        exponent_of(np.arange(22), np.arange(22.0), np.arange(22.0))
+
+
+def test_the_tables_hold_what_is_proved_and_what_the_solver_gets_right():
+    chain = ExactChain.from_slider(n_blocks=2, theta="1/2", drive_velocity="1e-3")
+    certificate = certify(chain, 0.5)
+    n = len(certificate.transitions)
+    tables = proof_tables({"pair": certificate}, 1e-9)
+    row = tables["certificates"].iloc[0]
+    facts = tables["solver_vs_proof"].iloc[0]
+    width = float(2 * max(t.time.radius for t in certificate.transitions))
+    assert (row["transitions"], row["largest_time_width_s"]) == (n, width)
+    assert facts["agreeing_transitions"] == facts["transitions"] == n
+    until = facts[["horizon_s", "right_until_s", "duration_s"]]
+    assert until.tolist() == [0.5] * 3
+    last = tables["horizon"]["actual_error_s"].iloc[-1]
+    assert last == facts["time_error_while_agreeing_s"]
+
+
+def test_a_scene_without_an_exponent_has_an_empty_row():
+    sliders = {"alone": {"theta": 0.0, "n_blocks": 1, "drive_velocity": 0.02}}
+    sliders["ten"] = {"theta": 0.5, "drive_velocity": 0.002}
+    table = lyapunov_table(sliders, 2.0).set_index("scene")
+    assert table.loc["alone"].drop("theta").isna().all()
+    assert table.loc["ten"].notna().all()
+
+
+def predicted_errors():
+    errors = {"time_s": [0.05, 0.1, 0.15], "predicted_error_s": [1e-16, 1e-12, np.nan]}
+    errors |= {"actual_error_s": [1e-17, 1e-13, 1e-10]}
+    thetas = {"trailing": -5 / 6, "steep": 0.9}
+    tables = [pd.DataFrame(errors).assign(chain=name) for name in thetas]
+    return figure.draw(pd.concat(tables), thetas, 1e-9)
+
+
+PICTURES = {"horizon": predicted_errors}

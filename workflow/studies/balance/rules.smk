@@ -1,0 +1,73 @@
+rule tabulate_balance:
+    """Measure the mean of F_X in six runs, and what slips do to the distance from kinetic balance."""
+    output:
+        balance=report("results/tables/balance.csv", category="Tables"),
+        balance_curves="results/tables/balance_curves.csv",
+    log:
+        "results/logs/tabulate_balance.log",
+    resources:
+        seconds=8,
+    params:
+        sliders=SLIDERS,
+        n_blocks=config["balance"]["n_blocks"],
+        duration=config["duration"],
+        code=digest("tabulate_balance"),
+    script:
+        "tabulate_balance.py"
+
+
+rule draw_balance:
+    """Draw the mean of F_X under three loadings."""
+    input:
+        table="results/tables/balance.csv",
+        curves="results/tables/balance_curves.csv",
+    output:
+        report(
+            "results/figures/mean.svg",
+            caption="caption.rst",
+            category="Reproduction",
+            labels={"figure": "mean: the mean load is the kinetic friction"},
+        ),
+        collect("results/figures/mean.{kind}", kind=MORE_FORMATS),
+    log:
+        "results/logs/draw_balance.log",
+    localrule: True
+    params:
+        code=digest("draw_balance"),
+    script:
+        "draw_balance.py"
+
+
+# Only the full study, eight minutes: the article reads what is committed of it.
+if config["full"]:
+
+    rule tabulate_long_balance:
+        """Measure the mean of F_X and the distance from kinetic balance in many long runs."""
+        output:
+            balance_runs=report("results/tables/balance_runs.csv", category="Tables"),
+            balance_first_slips=report("results/tables/balance_first_slips.csv", category="Tables"),
+            balance_blocks=report("results/tables/balance_blocks.csv", category="Tables"),
+            balance_loads=report("results/tables/balance_loads.csv", category="Tables"),
+        log:
+            "results/logs/tabulate_long_balance.log",
+        resources:
+            seconds=480,
+        params:
+            slider=config["chain"],
+            sliders=SLIDERS,
+            settings=config["balance"],
+            code=digest("tabulate_long_balance"),
+        script:
+            "tabulate_long_balance.py"
+
+
+rule balance:
+    """The distance from kinetic balance, and the mean of F_X."""
+    input:
+        rules.tabulate_balance.output,
+        rules.draw_balance.output,
+        rules.tabulate_long_balance.output if config["full"] else [],
+    localrule: True
+
+
+RESULTS.append(rules.balance.input)

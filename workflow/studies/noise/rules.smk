@@ -1,0 +1,43 @@
+rule run_noise:
+    """Run a chunk of the chains with noise in the normal loads."""
+    output:
+        chunk="results/ensembles/noise_members/{chunk}.csv",
+    log:
+        "results/logs/run_noise/{chunk}.log",
+    resources:
+        seconds=2,
+    params:
+        sliders=SLIDERS,
+        duration=config["duration"],
+        settings=config["noise"],
+        code=digest("run_noise"),
+    script:
+        "run_noise.py"
+
+
+rule tabulate_noise:
+    """Sum up the runs with noise."""
+    input:
+        chunks=collect("results/ensembles/noise_members/{chunk}.csv", chunk=CHUNKS),
+    output:
+        noise=report("results/tables/noise.csv", category="Tables"),
+        noise_differences=report("results/tables/noise_differences.csv", category="Tables"),
+        noise_members="results/tables/noise_members.csv",
+    log:
+        "results/logs/tabulate_noise.log",
+    localrule: True
+    params:
+        code=digest("tabulate_noise"),
+    script:
+        "tabulate_noise.py"
+
+
+rule noise:
+    """Noise in the normal loads."""
+    input:
+        rules.tabulate_noise.input,
+        rules.tabulate_noise.output,
+    localrule: True
+
+
+RESULTS.append(rules.noise.input)

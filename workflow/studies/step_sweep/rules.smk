@@ -1,0 +1,50 @@
+rule tabulate_step_sweep:
+    """Run the scenes with Runge-Kutta steps of many sizes."""
+    input:
+        runs=RUNS,
+        methods=PAPERS / "methods/methods.csv",
+    output:
+        step_sweep=report("results/tables/step_sweep.csv", category="Tables"),
+    log:
+        "results/logs/tabulate_step_sweep.log",
+    resources:
+        seconds=3,
+    params:
+        full=config["full"],
+        code=digest("tabulate_step_sweep"),
+    script:
+        "tabulate_step_sweep.py"
+
+
+rule draw_step_sweep:
+    """Draw the transitions that are right against the step of a Runge-Kutta method."""
+    input:
+        table="results/tables/step_sweep.csv",
+    output:
+        report(
+            "results/figures/step_sweep.svg",
+            caption="caption.rst",
+            category="Accuracy",
+            labels={
+                "figure": "step_sweep: counts and transitions that are right against the step of a Runge-Kutta method"
+            },
+        ),
+        collect("results/figures/step_sweep.{kind}", kind=MORE_FORMATS),
+    log:
+        "results/logs/draw_step_sweep.log",
+    localrule: True
+    params:
+        code=digest("draw_step_sweep"),
+    script:
+        "draw_step_sweep.py"
+
+
+rule step_sweep:
+    """The paper's counts against the step of a Runge-Kutta method."""
+    input:
+        rules.tabulate_step_sweep.output,
+        rules.draw_step_sweep.output,
+    localrule: True
+
+
+RESULTS.append(rules.step_sweep.input)
