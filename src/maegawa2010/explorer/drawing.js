@@ -240,7 +240,7 @@ function drawRow(canvas, frame) {
   show("drive");
   const side = centres[0] - size / 2, plate = side - 0.8 * left * (1 - 0.65 * pushed);
   spring(context, plate, side, y, 5);
-  caption("drive", floor - 1.5 * size - 12);
+  caption("drive", Math.max(floor - 1.5 * size - 12, 22));
   context.fillStyle = context.strokeStyle = palette.ink;
   context.fillRect(plate - 5, floor - 1.5 * size - 2, 5, 1.5 * size + 2);
   write(context, "→", plate - 8, y, "right");
