@@ -29,13 +29,14 @@ def scene_data(
     draws = members.query("scene == @scene and draw > 0")["mu_sapp"].dropna()
     agree = (draws - printed.MU_SAPP).abs() <= TOLERANCES["mu_sapp"]
     medians = resolution.query("scene == @scene and quantity == 'mu_sapp'")
-    finest = medians.loc[medians["n_blocks"].idxmax()]
+    by_blocks = medians.set_index("n_blocks")["q50"]
+    finest = int(by_blocks.index.max())
     return {
         "slider": slider,
         "mu_sapp": found.mu_sapp if found.reached else None,
         "draws": draws.round(4).tolist(),
         "within": {"k": int(agree.sum()), "n": len(draws)},
-        "finest": {"n_blocks": int(finest["n_blocks"]), "mu_sapp": finest["q50"]},
+        "finest": {"n_blocks": finest, "mu_sapp": by_blocks[finest]},
     }
 
 

@@ -37,5 +37,6 @@ function readAddress() {
   else if (Object.keys(slider).length) useSlider(wish);
   if (event) Object.assign(state, { pick: null, event: event - 1 });
   writeAddress();
-  element("refused").textContent = refused.map((text) => `Left out of the address: ${text}.`).join(" ");
+  const lines = refused.map((text) => `Left out of the address: ${text}.`);
+  element("refused").textContent = lines.join(" ");
 }

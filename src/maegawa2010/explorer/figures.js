@@ -115,7 +115,7 @@ function showReadout() {
     This slip reaches block ${one.front}${reason}`);
 }
 
-// Why a slip goes no farther: friction has used up the push, or the next block keeps below its limit.
+// Why a slip goes no farther: friction has used up the push, or the next block stays below its limit.
 function reasonOf(one) {
   const { n, weights, strength, slider } = run, { front } = one;
   let left = one.before, spent = 0; // the load, and the blocks whose friction it bears

@@ -51,10 +51,10 @@ def write_explorer(data: Mapping[str, Any], path: str | PathLike[str]) -> None:
         use the scenes with the smallest and largest theta, and the nearest to 0.
         `tilted`: another `theta` and its `mu_sapp`. `all_six`: [k, n] of the sliders
         with the same printed inputs have all numbers of the paper, or None. `proved`: a
-        `slider` and the `duration` [s] up to which its transitions are proved. `duration` [s] of a run; `tolerance`
-        [s] of the times of a run that is called predictable; `printed`: range of
-        mu_sapp; `half_a_digit`: by how much sliders with the same printed inputs
-        differ; `noise` of the loads [%].
+        `slider` and the `duration` [s] up to which its transitions are proved.
+        `duration` [s] of a run; `tolerance` [s] of the times of a run that is called
+        predictable; `printed`: range of mu_sapp; `half_a_digit`: by how much sliders
+        with the same printed inputs differ; `noise` of the loads [%].
     path
         The file that is written.
     """

@@ -99,14 +99,14 @@ const STEPS = [
     name: "Mean", title: "What does not depend on the loading?", scene: nearTheta(1),
     pick: "global", view: "all", study: drawMeans,
     text: (word) => `Once the line reaches the leading edge, the whole row slides: a
-      ${word("global")}. From then on ${word("load")} rises with the drive and falls with each slip,
-      to other peaks under each loading. <b>Over a long time its mean is the same: the kinetic
-      friction μ_k F_Z</b>, because the drive does the work that friction takes. Move N: the teeth
-      shrink. The peak at the first global slip, ${word("apparent")}, falls to
+      ${word("global")}. From then on ${word("load")} rises and falls, to other peaks under each
+      loading. <b>Over a long time its mean is the same: the kinetic friction μ_k F_Z</b>, because
+      the drive does the work that friction takes. Move N: the teeth shrink. The peak at the first
+      global slip, ${word("apparent")}, falls to
       ${ofTilts(({ finest }) => finest.mu_sapp.toFixed(3))} with ${TILTS[0].finest.n_blocks} blocks
       (medians with ${digits(DATA.noise)} % noise in the loads). <b>So the paper’s
       ${twoDigits(PAPERS)} belongs to its ten blocks.</b> Move μ_k far down: blocks slide backward,
-      which takes more work, and the mean rises above μ_k.`,
+      and the mean rises above it.`,
   },
   {
     name: "Peak", title: "When does the whole row slide?", scene: UNIFORM, pick: "global",
