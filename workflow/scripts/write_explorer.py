@@ -6,7 +6,7 @@ from maegawa2010.explorer.data import explorer_data
 from maegawa2010.explorer.page import write_explorer
 from maegawa2010.support.job import job
 
-TABLES = ("members", "shares", "balance", "resolution")
+TABLES = ("members", "shares", "resolution")
 
 with job() as snakemake:
     params = snakemake.params

@@ -32,8 +32,8 @@ def explorer_data(
     sliders, slips
         Arguments of `Chain.from_slider` of each scene, and their slip tables.
     tables
-        `members` and `shares` of the sliders with the same printed inputs, `balance`,
-        and `resolution`.
+        `members` and `shares` of the sliders with the same printed inputs, and
+        `resolution`.
     proved
         `horizon.proved` of the configuration.
     """
@@ -67,18 +67,15 @@ def scene_data(
     members = tables["members"].query("scene == @scene and draw > 0")
     draws = members["mu_sapp"].dropna()
     agree = (draws - printed.MU_SAPP).abs() <= TOLERANCES["mu_sapp"]
-    balance = tables["balance"]
-    own = balance[balance["n_blocks"] == slider["n_blocks"]]
-    mean = own.set_index("scene")["mean"].get(scene)
     medians = tables["resolution"].query("scene == @scene and quantity == 'mu_sapp'")
-    medians = medians[medians["n_blocks"] >= slider["n_blocks"]]
+    by_blocks = medians.set_index("n_blocks")["q50"]
+    finest = int(by_blocks.index.max())
     return {
         "slider": slider,
         "mu_sapp": numbers.mu_sapp if numbers.reached else None,
-        "mean": None if pd.isna(mean) else mean,
         "draws": draws.round(4).tolist(),
         "within": {"k": int(agree.sum()), "n": len(draws)},
-        "medians": medians[["n_blocks", "q05", "q50", "q95"]].to_numpy().tolist(),
+        "finest": {"n_blocks": finest, "mu_sapp": by_blocks[finest]},
     }
 
 
