@@ -79,7 +79,7 @@ $(READY): requirements.lock
 	$(BIN)/uv pip sync -q -p $(BIN)/python --require-hashes --build-constraints requirements.lock requirements.lock
 	$(BIN)/uv pip install -q -p $(BIN)/python --offline --no-deps --no-build-isolation -e .
 	@# Compile what is not in the user's cache, on two cores.
-	$(BIN)/python -c "from precursors import Chain, simulate; simulate(Chain.from_slider(), 0.4).at([0.4])" & \
+	$(BIN)/python -c "from precursors import Chain, simulate; simulate(Chain.from_slider(), 0.4)" & \
 	$(BIN)/python -c "from precursors import Chain; from maegawa2010.methods import METHODS; \
 	  from maegawa2010.studies.models.quasistatic import quasistatic_slips; chain = Chain.from_slider(); quasistatic_slips(chain); \
 	  [METHODS[name].solve(chain, 0.4, 1e-6, None) for name in ('rk4', 'rk4_located', 'leapfrog', \

@@ -365,21 +365,23 @@ def test_a_load_curve_and_a_film_are_drawn_with_their_names(
         "--data-start=0.5",
     )
     chosen = ("--columns=t=Zeit [ms]", "--columns=L_p=Front [mm]")
-    told = (
+    printed = (
         "curve.csv: 2 points, t [s] 0 to 1, F_X [N] 9 to 120\n"
         "film.csv: 3 points, t [s] 1 to 8.5, L_p/L [-] 0.3 to 0.7\n"
         "curve.csv: 31.4 N rms from the run up to its first global slip\n"
     )
     drawn = {}
     monkeypatch.setattr(style, "save", lambda figure, *_: drawn.update(figure=figure))
-    for width in (60, 85, 178):
+    for width in (60, 85, 120, 174):
         look = (f"--width={width}", "--font-size=9")
-        assert cli("plot", run_file, *files, *chosen, *look)[::2] == (0, told)
+        assert cli("plot", run_file, *files, *chosen, *look)[::2] == (0, printed)
         figure = drawn["figure"]
         (key,) = figure.legends
         box = key.get_window_extent()
         assert box.x0 >= 0
         assert box.x1 <= figure.bbox.width
+        assert box.y0 >= 0
+        assert box.y1 < min(axes.get_tightbbox().y0 for axes in figure.axes)
         lines = figure.findobj(lambda a: getattr(a, "get_label", str)() == "film.csv")
         points = [
             line.get_xydata().tolist() for line in lines if len(line.get_xydata())

@@ -19,8 +19,7 @@ def trace(events: pd.DataFrame, duration: float = 10.0) -> pd.DataFrame:
     over = events.dropna(subset="end_s")
     times = [0.0, *over[["onset_s", "end_s"]].to_numpy().ravel(), duration]
     loads = [0.0, *over[["load_before_N", "load_after_N"]].to_numpy().ravel(), 150.0]
-    table = pd.DataFrame({"time_s": times, "tangential_load_N": loads})
-    return table.assign(K_x1_N=80.0 * table["time_s"] - table["tangential_load_N"])
+    return pd.DataFrame({"time_s": times, "tangential_load_N": loads})
 
 
 def draw_scene(events: pd.DataFrame, duration: float = 10.0, **how: object):
@@ -63,7 +62,7 @@ def endless_scene():
         "is_global": True,
         "slider_length_m": 0.25,
     }
-    flat = pd.DataFrame({"time_s": [0.0, 1.0], "tangential_load_N": 0.0, "K_x1_N": 0.0})
+    flat = pd.DataFrame({"time_s": [0.0, 1.0], "tangential_load_N": 0.0})
     return scene.draw(slips().iloc[[0]].assign(**event), flat)
 
 

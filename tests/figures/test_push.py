@@ -4,38 +4,49 @@ import numpy as np
 import pytest
 
 from precursors import Chain, Record, plot, simulate
+from precursors.figures import push
 
 
-def words_of(axes):
-    return [axes.get_title(), *(text.get_text() for text in axes.texts)]
-
-
-def test_a_slip_stops_where_the_line_ends_and_the_global_slip_has_load_left():
-    """18 N a block: 79.0 N are used up in block 5, 164.7 N in block 10, 194.3 N never."""
+def test_the_picture_says_of_each_slip_why_it_stops():
+    """18 N a block: 79.0 N are used up in block 5, 164.7 N in block 10, 194.3 N never.
+    Block 4 stays, with a step of 27.8 N, when event 14 stops."""
     run = simulate(Chain.from_slider(), until="global slip")
+    figure = plot(run, "push", events=[5, 12, 14, 16])
+    assert figure.get_suptitle() == push.FINDING
+    assert [axes.get_title() for axes in figure.axes] == [
+        "Precursor: stops after block 5,\nwhere the push is used up",
+        "Precursor: stops after block 9,\nwhere the push is used up",
+        "Precursor: stops early, after block 3;\nblock 4 bears 27.8 N and holds 28 N",
+        "Global slip: the row goes,\n14 N of the push are not used up",
+    ]
+    first, *_, last = [axes.lines[0].get_xydata()[-1] for axes in figure.axes]
+    assert first == pytest.approx([92.7 / 180, 0.0], abs=1e-3)
+    assert last == pytest.approx([1.0, 14.3], abs=0.05)
+
+
+def test_the_title_is_left_out_where_a_farthest_slip_stops_elsewhere():
+    """At -5/6 the longest slip goes on beyond, and short slips alone bear nothing out."""
+    run = simulate(Chain.from_slider(theta=-5 / 6), until="global slip")
     figure = plot(run, "push")
-    assert figure.get_suptitle() == "A slip stops where friction has used up the push"
-    first, second, last = figure.axes
-    assert words_of(first) == [
-        "Precursor: stops after block 4",
-        "$F_X$ = 79 N",
-        "used up",
-    ]
-    assert "Precursor: stops after block 9" in words_of(second)
-    assert words_of(last) == [
-        "Global slip: all 10 blocks",
-        "$F_X$ = 194 N",
-        "14 N left",
-    ]
-    for axes, end in zip((first, second), (79.0 / 180, 164.7 / 180), strict=True):
-        np.testing.assert_allclose(axes.lines[0].get_xydata()[-1], [end, 0], atol=1e-3)
-    assert last.lines[0].get_xydata()[-1] == pytest.approx([1.0, 14.3], abs=0.05)
+    assert figure.get_suptitle() == ""
+    assert figure.axes[1].get_title().endswith("\nbeyond where the push is used up")
+    assert plot(run, "push", events=[5]).get_suptitle() == ""
+
+
+def test_a_slip_adds_to_the_push_and_releases_some_of_it():
+    """The first global slip adds 19 N in all springs together, and releases 64 N."""
+    run = simulate(Chain.from_slider(), until="global slip")
+    stairs = [patch.get_data() for patch in plot(run, "push").axes[-1].patches]
+    added, released = (fill.values - fill.baseline for fill in stairs[:2])
+    assert [added.sum(), released.sum()] == pytest.approx([19, 64], abs=0.5)
+    before, after = (outline.values for outline in stairs[2:])
+    np.testing.assert_allclose(after - before, added - released, atol=1e-12)
 
 
 def test_any_event_is_shown_that_is_over():
     run = simulate(Chain.from_slider(), until="global slip")
     (axes,) = plot(run, "push", events=[2]).axes
-    assert axes.get_title() == "Precursor: stops after block 2"
+    assert axes.get_title().startswith("Precursor: stops after block 2,")
     with pytest.raises(
         ValueError, match=r"must be 1 to 16, the slips that are over, but are \[2, 17\]"
     ):

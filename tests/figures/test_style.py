@@ -13,7 +13,7 @@ from matplotlib import image
 
 from maegawa2010.methods import ROWS
 from precursors import Chain, plot, simulate
-from precursors.figures import precursor_lengths, style
+from precursors.figures import precursor_lengths, scene, style
 
 
 def small_figure():
@@ -70,7 +70,7 @@ def test_an_svg_has_its_words_as_text_and_a_title(tmp_path):
     style.save(figure, tmp_path / "figure.svg", title="Fig. 13")
     svg = (tmp_path / "figure.svg").read_text("utf-8")
     assert "<title>Fig. 13</title>" in svg
-    assert "uniform load:</text>" in svg
+    assert "short events, not counted</text>" in svg
 
 
 @pytest.mark.parametrize(
@@ -97,6 +97,17 @@ def test_the_law_holds_for_measured_loads_and_the_axis_holds_the_data():
     assert plot(run, data=frame).axes[0].get_xlim() == (0.0, 15.0)
     with pytest.raises(ValueError, match="data must have two columns"):
         plot(run, data=[1.0, 2.0])
+
+
+def test_the_magnified_view_has_the_measured_loads_in_it():
+    run = simulate(Chain.from_slider(), 4.0)
+    inside, beyond = [[2.0, 140.0], [2.7, 180.0]], [[3.9, 900.0]]
+    figure = plot(run, data=inside + beyond)
+    (view,) = (
+        each for each in figure.axes if each.get_title("left") == scene.MAGNIFIED
+    )
+    assert inside in [line.get_xydata().tolist() for line in view.lines]
+    assert view.get_ylim()[1] < 250.0
 
 
 def test_measured_lengths_are_shares_of_the_whole():

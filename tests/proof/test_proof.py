@@ -8,6 +8,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import mpmath
+import numpy as np
 import pytest
 from benchmark.made_up import (
     SYMMETRIC_START,
@@ -16,6 +17,7 @@ from benchmark.made_up import (
     proof_of,
     tied_certificate,
 )
+from chains import SLIDER
 from flint import arb, ctx
 
 from precursors import simulate
@@ -94,6 +96,17 @@ def test_a_scene_is_proved_up_to_its_global_slip_as_the_solver_finds_it(
     found = compare(simulate(chain.to_chain(), until="global slip"), truth)
     assert has_all_transitions(found)
     assert found.time_error < SOLVER
+
+
+def test_a_proof_ends_with_the_global_slip_of_blocks_that_bear_load():
+    """A block with a millionth of the mean load slides on."""
+    weights = np.full(5, 80.0)
+    weights[4] = 1e-6 * 80.0
+    chain = SLIDER(weights=weights)
+    run = simulate(chain, until="global slip")
+    truth = Truth.proved(certify(chain, 10, until="global slip"))
+    assert truth.run.duration == pytest.approx(run.duration, abs=SOLVER)
+    assert has_all_transitions(compare(run, truth))
 
 
 def test_the_doubles_of_a_chain_are_taken_for_what_they_are():

@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 import pytest
-from chains import SLIDER, first_transitions, lone_slip
+from chains import SLIDER, by_plain, first_transitions, lone_slip
 
 from precursors import TransitionLimitError, apparent_friction, find_slips, simulate
 from precursors.audit import audit
@@ -151,6 +151,21 @@ def test_blocks_without_load_neither_prolong_an_event_nor_delay_the_global_slip(
     assert (slips["end"] - slips["onset"]).max() < 1e-3
     loaded = simulate(SLIDER(weights=np.maximum(weights, 0.01)), until="global slip")
     assert apparent_friction(run) == pytest.approx(apparent_friction(loaded), abs=0.1)
+
+
+def test_a_run_until_the_global_slip_counts_blocks_as_a_slip_table():
+    """A block with a millionth of the mean load slides on after the global slip."""
+    weights = np.full(5, 80.0)
+    weights[4] = 1e-6 * 80.0
+    chain = SLIDER(weights=weights)
+    run = simulate(chain, until="global slip")
+    assert not chain.bears_load[4]
+    assert run.at(run.duration)[1][0, 4] != 0.0
+    slips = find_slips(simulate(chain, 1.01 * run.duration))
+    assert run.duration == slips.loc[slips["is_global"], "end"].iloc[0]
+    rows, end = by_plain(chain, 10.0, until_global=True)
+    assert len(rows) == len(run.transitions)
+    assert end == pytest.approx(run.duration, abs=TO_GLOBAL_SLIP)
 
 
 def test_a_block_without_load_rests_until_it_is_pushed():

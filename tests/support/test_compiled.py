@@ -40,7 +40,7 @@ with event.install_listener("numba:compile", Announcement()):
     from small.entry import entry
     print(json.dumps([entry(2), sum(entry.stats.cache_hits.values())]))
 """
-SAID = "compiling the solver for this machine, once: some 20 s\n"
+SAID = "compiling the solver for this machine, once: some 10 s\n"
 
 
 class Small:

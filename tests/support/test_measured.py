@@ -18,6 +18,12 @@ ROWS = [[0.0, 1.0], [0.5, 80.5]]
 KRAFT = {"t": "Zeit [ms]", "F_X": "Kraft [kN]"}
 BESIDE = "Time (s),Ft (N),Fn (N)\n0,1.0,400\n0.5,80.5,400\n"
 HEADER = "Tester 3000\noperator: -\nZeit [ms];Kraft [kN]\n0;0,001\n500;0,0805\n"
+REIBKRAFT = "Zeit (s);Reibkraft (N);Normalkraft (N)\n0;1,0;400\n0,5;80,5;400\n"
+TRIBOMETER = """\
+Time [s],Sliding Time [s],Normal Force [N],Friction Force [N],User Channel 1
+0.0,0.0,400.0,1.0,0
+0.5,0.4,400.0,80.5,0
+"""
 EQUAL = "t [s];F [N];F [N]\n0;9;1\n0,5;9;80,5\n"
 
 
@@ -52,6 +58,8 @@ def refuses(read, source, about):
         ('"F_X [N]","t [µs]",F_N [N]\n1,"0",400\n80.5,"5E5",400\n', {}),
         (HEADER, {"header_line": 3, "choice": KRAFT}),
         (BESIDE, {"choice": {"F_X": "Ft"}}),
+        (REIBKRAFT, {"choice": {"t": "Zeit (s)", "F_X": "Reibkraft (N)"}}),
+        (TRIBOMETER, {"choice": {"t": "Time [s]", "F_X": "Friction Force [N]"}}),
         (EQUAL, {"choice": {"F_X": "3"}}),
         ("t [s];Kraft [N]\n0;0,001\n0,5;0,0805\n", {"choice": {"F_X": "Kraft [kN]"}}),
         ("a, b;F(raw)\n0;1\n0,5;80,5\n", {"choice": {"t": "a, b [s]", "F_X": "2 [N]"}}),
@@ -69,6 +77,13 @@ def test_columns_are_read_by_name_and_unit_or_chosen(file, text, how):
         ("t [s];F [N]\n0;10;5\n", {}, "line 2: cells: 3"),
         ("t [s],F_X [N],a\n0,10\n", {}, "line 2: cells: 2"),
         ("Time,Temperature\n0,23.1\n", {}, '"t=Time [s],F_X=NAME [N]"'),
+        ("Time,Fz\n0,400.2\n", {}, "the columns are 'Time', 'Fz': choose with"),
+        (
+            REIBKRAFT,
+            {},
+            "may be column 2, 'Reibkraft (N)' or column 3, 'Normalkraft (N)'",
+        ),
+        (TRIBOMETER, {}, "'Normal Force [N]' or column 4, 'Friction Force [N]'"),
         ("Frame,Force\n0,1\n", {}, 'choose with --columns "t=NAME [s],F_X=Force [N]"'),
         ("Zeit (s);Kraft (kN)\n0;1\n", {}, '--columns "t=Zeit (s),F_X=Kraft (kN)"'),
         (
@@ -112,6 +127,7 @@ def test_a_table_of_pandas_goes_by_the_same_rules():
     for wrong, about in (
         (frame.rename(columns={"t [s]": "Zeit [s]"}), 'as in "t=Zeit'),
         (frame.replace(0.5, np.nan), "row 2: 'nan' is not a number"),
+        (frame[:0], "there are no numbers"),
     ):
         with pytest.raises(ValueError, match=about):
             curve(wrong)
@@ -159,8 +175,16 @@ def test_front_lengths_are_shares_of_the_slider(file, front):
     name, value = front.split("\n")
     path = file(f"t [s],{name}\n0.4,{value}\n")
     assert curve(path).tolist() == [[0.4, 0.2]]
+    path = file(f"Zeit,{name}\n400,{value}\n")
+    assert curve(path, {"t": "Zeit [ms]"}).tolist() == [[0.4, 0.2]]
     path = file(f"t [s],{name}\n0.4,{value}0\n".replace(".20", "1.2"))
     refuses(curve, path, "line 2: L_p/L must be between 0 and 1")
+
+
+def test_front_lengths_are_read_over_the_load(file):
+    path = file("F_X [N],L_p [mm]\n60,20\n120,50\n190,100\n")
+    ((_, values),) = read_series(path, LOAD, [LENGTH], 0.1)
+    assert values.tolist() == [[60.0, 0.2], [120.0, 0.5], [190.0, 1.0]]
 
 
 def test_a_table_may_have_loads_and_front_lengths(file):

@@ -12,5 +12,6 @@ with job() as snakemake:
         read(read_table, snakemake.input.trace),
         title=f"{name}: {params.title}",
         look=look,
+        has_key=params.has_key,
     )
     save(figure, snakemake.output, params.title, look)

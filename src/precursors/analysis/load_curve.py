@@ -68,16 +68,9 @@ def load_curve(run: Record) -> tuple[FloatArray, FloatArray]:
 
 
 def load_trace(run: Record) -> pd.DataFrame:
-    """Points of the exact F_X and of K x_1 = K V t - F_X.
-
-    Straight lines between them draw both, see `load_curve`. Each precursor is a step of
-    K x_1.
-    """
+    """The points of `load_curve` as a table."""
     times, loads = load_curve(run)
-    pushed = run.chain.loading_rate * times
-    return pd.DataFrame(
-        {"time_s": times, "tangential_load_N": loads, "K_x1_N": pushed - loads}
-    )
+    return pd.DataFrame({"time_s": times, "tangential_load_N": loads})
 
 
 def _seen(transitions: NDArray[np.void]) -> NDArray[np.void]:

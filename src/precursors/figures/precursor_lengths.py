@@ -14,7 +14,7 @@ from precursors.figures import style
 from precursors.figures.style import Measured, Options
 from precursors.model.chain import FloatArray
 
-HEIGHT_MM = 76.0
+HEIGHT_MM = 80.0
 LEGEND_MM = 8.0  # of an entry of the key, where one stands below the panel
 # Scenes that have no names in place have different outlines.
 OUTLINES = "osD^vh"
@@ -28,7 +28,8 @@ SHORT: Options = {
     "zorder": 1.5,
 }
 CARRIED: Options = {"linestyle": (0, (4, 3)), "linewidth": 0.8, "zorder": 1.2}
-CARRIED_TEXT = "dashed:\n" + r"$F_X = \mu_k W(L_p)$"
+CARRIED_TEXT = r"$F_X = \mu_k W(L_p)$"
+SHORT_TEXT = "short events, not counted"
 MEASURED: Options = {
     "color": style.MEASURED,
     "linestyle": "none",
@@ -41,12 +42,16 @@ MARKERS = "+x^s"  # of measured points
 NAMES: dict[int, tuple[str, float, str, tuple[float, float]]] = {
     -1: ("more load at the\ntrailing edge: {}", 0.0, "left", (28.0, -2.0)),
     0: ("uniform load:\n{} events", 0.0, "left", (-8.0, -4.0)),
-    1: ("more load at\nthe leading\nedge: {}", 0.65, "right", (-24.0, 14.0)),
+    1: ("more load at\nthe leading\nedge: {}", 0.65, "right", (-18.0, 16.0)),
 }
+# F_X/F_Z stands right of the first global slip, in lines that keep the scenes apart.
+LINE_PT = 9.0
+END_ROOM = 1.22  # of the axis of F_X, in times of the largest load
 # Shares of the largest load that keep the first two names apart, and that the third
 # needs to its left.
 APART = 0.1
 ROOM = 0.28
+FEW = 12  # blocks at most, whose first event is far enough from the corner
 
 
 def draw(
@@ -70,51 +75,56 @@ def draw(
     lengths = np.concatenate([[0.0], *(each.points[:, 1] for each in data)])
     if not ((lengths >= 0) & (lengths <= 1)).all():
         raise ValueError("measured lengths must be L_p/L, between 0 and 1")
-    has_key = len(data) > 0 or not _are_named_in_place(slips)
-    height_mm = HEIGHT_MM + LEGEND_MM * has_key * (max(len(data), 1) + len(slips))
+    in_place = len(data) == 0 and _are_named_in_place(slips)
+    n_lines = 0 if in_place else max(len(data), 1) + len(slips)
+    height_mm = HEIGHT_MM + LEGEND_MM * n_lines
     with style.page(style.COLUMN_MM, height_mm, look) as figure:
         axes = figure.subplots()
         axes.set_title(style.plain(title), loc="left", wrap=True)
-        told = [_beside(slips, each) for each in data]
-        for each, label, marker in zip(data, told, cycle(MARKERS), strict=False):
+        labels = [_beside(slips, each) for each in data]
+        for each, label, marker in zip(data, labels, cycle(MARKERS), strict=False):
             axes.plot(*each.points.T, **MEASURED, marker=marker, label=label)
-        figure.set_label("\n".join(" ".join(label.split()) for label in told))
-        draw_lengths(axes, slips, weights)
-        if has_key:
-            style.draw_key(figure, ncols=1)
+        figure.set_label("\n".join(" ".join(label.split()) for label in labels))
+        draw_lengths(axes, slips, weights, in_place)
+        style.draw_key(figure, ncols=2 if in_place else 1)
     return figure
 
 
 def draw_lengths(
-    axes: Axes, slips: Sequence[pd.DataFrame], weights: ArrayLike | None = None
+    axes: Axes,
+    slips: Sequence[pd.DataFrame],
+    weights: ArrayLike | None = None,
+    in_place: bool = True,
 ) -> None:
-    """Draw the events of Fig. 13 into a panel, with names along the curves.
+    """Draw the events of Fig. 13 into a panel, with names along the curves and F_X/F_Z
+    at their ends, or with entries of a key.
 
     Solid circles are theta < 0, circles with a dot theta = 0, and open circles theta >
     0. Small crosses are the short events, which Fig. 13 does not count. Dashed is the
     load at which kinetic friction carries all of the push up to a length.
     """
     slips = [table for table in slips if len(table)]
-    in_place = _are_named_in_place(slips)
     outlines = "o" * len(slips) if in_place else cycle(OUTLINES)
     for table, outline in zip(slips, outlines, strict=False):
-        points = _draw_events(axes, table, outline)
+        _draw_events(axes, table, outline, in_place)
         length, load = friction_carried(table.iloc[0], weights)
         axes.plot(load, length, **CARRIED, color=style.theta_color(_sign(table)))
         if in_place:
-            _name(axes, points, _sign(table))
+            _name(axes, table[table["counted"]])
     # Measured loads, which are drawn before, may be below zero.
-    axes.set(xlim=(min(0.0, axes.dataLim.x0), None), ylim=(-0.09, 1.06))
+    right = END_ROOM * axes.dataLim.x1 if in_place else None
+    axes.set(xlim=(min(0.0, axes.dataLim.x0), right), ylim=(-0.09, 1.08))
     if slips:
         _add_coefficient(axes, pd.concat(slips))
     axes.set_xlabel("Tangential load $F_X$ [N]")
     axes.set_ylabel("Front length $L_p/L$ [-]")
-    if in_place and len(slips) > 1:
-        axes.text(0.84, 0.36, CARRIED_TEXT, transform=axes.transAxes, ha="right")
-    elif not in_place:
-        if weights is not None or any(table["theta"].notna().any() for table in slips):
-            axes.plot([], [], **CARRIED, color=style.GREY, label=CARRIED_TEXT)
-        axes.plot([], [], **SHORT, color=style.GREY, label="short events, not counted")
+    marks: dict[str, Options] = {}
+    if weights is not None or any(table["theta"].notna().any() for table in slips):
+        marks[CARRIED_TEXT] = CARRIED
+    if any(_is_short(table).any() for table in slips):
+        marks[SHORT_TEXT] = SHORT
+    for text, look in marks.items():
+        axes.plot([], [], **look, color=style.GREY, label=text)
 
 
 def friction_carried(
@@ -174,7 +184,8 @@ def _are_named_in_place(slips: Sequence[pd.DataFrame]) -> bool:
     at = {}
     for table in slips:
         counted = table[table["counted"]]
-        if len(counted) < 4 or not counted["is_global"].any() or table["theta"].hasnans:
+        has_room = len(counted) >= 4 and (table["n_blocks"] <= FEW).all()
+        if not (has_room and counted["is_global"].any()) or table["theta"].hasnans:
             return False
         sign = _sign(table)
         loads = counted["load_before_N"]
@@ -186,15 +197,18 @@ def _are_named_in_place(slips: Sequence[pd.DataFrame]) -> bool:
     )
 
 
-def _draw_events(axes: Axes, slips: pd.DataFrame, outline: str) -> FloatArray:
-    """Draw the events of a scene; return those that Fig. 13 counts."""
+def _is_short(slips: pd.DataFrame) -> pd.Series:
+    return ~slips["is_global"].cummax() & ~slips["counted"]
+
+
+def _draw_events(axes: Axes, slips: pd.DataFrame, outline: str, in_place: bool) -> None:
+    """Draw the events of a scene."""
     sign = _sign(slips)
     color = style.theta_color(sign)
     points = np.column_stack(
         [slips["load_before_N"], slips["front"] / slips["n_blocks"]]
     )
-    short = points[~slips["is_global"].cummax() & ~slips["counted"]]
-    axes.plot(*short.T, **SHORT, color=style.pale(color, 0.5))
+    axes.plot(*points[_is_short(slips)].T, **SHORT, color=style.pale(color, 0.5))
     counted = points[slips["counted"]]
     axes.plot(
         *counted.T,
@@ -204,26 +218,35 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, outline: str) -> FloatArray:
         markerfacecolor=color if sign < 0 else "white",
         markeredgewidth=0.8,
         linewidth=0.5,
-        label=_label(slips),
+        label="_" if in_place else _label(slips),
+        # The smallest marks in front, so that all are seen where they coincide.
+        zorder=2 - 0.1 * sign,
     )
     if sign == 0:
         axes.plot(*counted.T, linestyle="none", marker=".", markersize=2.6, color=color)
-    return counted
 
 
-def _name(axes: Axes, points: FloatArray, sign: int) -> None:
+def _name(axes: Axes, counted: pd.DataFrame) -> None:
+    """Write along a curve what it is, with its number of events, and F_X/F_Z at its
+    end."""
+    sign = _sign(counted)
+    look: Options = {"textcoords": "offset points", "color": style.theta_color(sign)}
     words, part, side, offset = NAMES[sign]
+    loads = counted["load_before_N"].to_numpy()
+    i = int(part * len(loads))
     axes.annotate(
-        words.format(len(points)),
-        points[int(part * len(points))],
+        words.format(len(loads)),
+        (loads[i], counted["front"].iloc[i] / counted["n_blocks"].iloc[i]),
         offset,
-        textcoords="offset points",
         ha=side,
         va="top",
-        color=style.theta_color(sign),
         fontsize="small",
         fontweight="bold",
+        **look,
     )
+    ratio = f"{loads[-1] / counted['normal_load_N'].iloc[-1]:.3f}"
+    place = (6, LINE_PT * (sign - 1))
+    axes.annotate(ratio, (loads[-1], 1), place, va="center", **look)
 
 
 def _label(slips: pd.DataFrame) -> str:

@@ -1,7 +1,8 @@
-"""Figs. 10-12, and any other scene: the tangential load over time, the staircase that it
-loses, and when and where blocks slipped."""
+"""Figs. 10-12, and any other scene: the tangential load over time, with a magnified view
+about the first global slip, and when and where blocks slipped."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import cycle
 from typing import Any
 
@@ -13,11 +14,12 @@ from matplotlib.figure import Figure
 from precursors.figures import style
 from precursors.figures.style import Measured, Options
 
-HEIGHT_MM = 58.0
+HEIGHT_MM = 48.0
 CURVE_MM = 62.0  # of the load alone
-KEY_MM = 8.0
+KEY_MM = 11.4
+MEASURED_MM = 9.0  # of an entry of the key for what was measured
 NARROW_MM = 150.0  # below this width the magnified view stands below, not beside
-ZOOM_END = 1.04  # of the magnified view, in times of the first global slip
+ZOOM = (0.66, 1.03)  # the magnified view, in times of the first global slip
 KEY_WIDTH = 7.25  # of a column of the key, in mm per pt of the letters
 
 # What an event is to the reader: its look, from those behind to those in front.
@@ -41,12 +43,18 @@ TO_THE_EDGE: Options = {
     "markersize": 3.2,
     "markerfacecolor": "white",
     "markeredgewidth": 0.7,
-    "clip_on": False,
     "label": "reaches the leading edge, but not all at once",
 }
-LOADS = {"tangential_load_N": "$F_X$ [N]", "K_x1_N": "$K x_1$ [N]"}
-STAIRCASE = "$K x_1 = K V t - F_X$: a step for each slip"
+MAGNIFIED = "Grey part, magnified; arrows: precursors counted"
+ARROW: Options = {
+    "arrowstyle": "-|>,head_length=0.25,head_width=0.12",
+    "color": style.PARTIAL,
+    "linewidth": 0.8,
+    "shrinkA": 0,
+    "shrinkB": 2,
+}
 MEASURED: Options = {"color": style.MEASURED, "zorder": 1.8}
+LOAD = ["time_s", "tangential_load_N"]
 LINES = ("-", "--", "-.", ":")  # of measured loads
 MARKERS = "+x^s"  # of measured front lengths
 
@@ -57,50 +65,58 @@ def draw(
     title: str = "",
     data: Sequence[Measured] = (),
     look: style.Look = style.LOOK,
+    has_key: bool = True,
 ) -> Figure:
-    """Draw F_X(t) and all slip events, and K x_1 = K V t - F_X, magnified up to the
-    first global slip.
+    """Draw F_X(t) and all slip events, and F_X magnified about the first global slip,
+    with arrows at the events counted before it.
 
     An event that goes on when the run ends is a band. The slip table may be empty; the
     trace is straight between its rows. `data` are measured loads [N], or front lengths
-    [m], over time [s].
+    [m], over time [s]. Of figures below each other one needs a key.
     """
     width_mm = look.width_mm or style.PAGE_MM
     slips = _with_kinds(slips)
     first_s = slips.loc[slips["is_global"], "onset_s"].min()
     start, end = _span(trace, data)
-    ends = [np.fmax(end, ZOOM_END * first_s)]
-    views = [list(LOADS)]
-    if first_s > 0:
-        ends.append(ZOOM_END * first_s)
-        views = [[column] for column in LOADS]
-    n = len(views)
-    heights = [1.3] * len(views[0]) + [1.0]
-    rows = n if width_mm < NARROW_MM else 1
-    height_mm = HEIGHT_MM * rows + KEY_MM * max(2 * rows - 1, 1 + len(data))
+    end = np.fmax(end, ZOOM[1] * first_s)
+    is_narrow = width_mm < NARROW_MM
+    height_mm = HEIGHT_MM * (1 + 1.2 * is_narrow) + MEASURED_MM * len(data)
+    height_mm += KEY_MM * (1 + is_narrow) * has_key
     with style.page(width_mm, height_mm, look) as figure:
-        panels = figure.subplots(
-            len(heights) * rows, n // rows, squeeze=False, height_ratios=heights * rows
-        )
-        columns = panels.T.reshape(n, len(heights))
-        for axes, view, end in zip(columns, views, ends, strict=True):
-            for panel, column in zip(axes, view, strict=False):
-                _draw_load(panel, column, slips, trace, end)
-            _draw_events(axes[-1], slips[slips["onset_s"] <= end], trace)
-            axes[-1].set_xlabel("Time $t$ [s]")
-            for panel in axes:
-                panel.set_xlim(start, end)
-                panel.tick_params(labelbottom=panel is axes[-1])
-                if slips["is_global"].any():
-                    panel.axvline(first_s, **FIRST_GLOBAL)
-        _draw_measured_loads(columns[0][0], data, trace, first_s)
-        for axes in columns:
-            _draw_measured_lengths(axes[-1], data)
-        if n > 1:
-            _magnify(columns, first_s, trace)
+        # Load, fronts, and the inset beside or below them.
+        layout = "LI;FI"
+        if not first_s > 0:
+            layout = "L;F"
+        elif is_narrow:
+            layout = "L;F;I"
+        ratios = [1.6, 1.0, 1.6][: 1 + layout.count(";")]
+        panels = figure.subplot_mosaic(layout, height_ratios=ratios)
+        load, fronts = panels["L"], panels["F"]
+        _draw_load(load, slips, trace, end)
+        _draw_events(fronts, slips, trace)
+        for panel in (load, fronts):
+            panel.set_xlim(start, end)
+            if slips["is_global"].any():
+                panel.axvline(first_s, **FIRST_GLOBAL)
+        load.tick_params(labelbottom=False)
+        fronts.set_xlabel("Time $t$ [s]")
+        _draw_measured_loads(load, data, trace, first_s)
+        _draw_measured_lengths(fronts, data)
+        if "I" in panels:
+            view = (ZOOM[0] * first_s, ZOOM[1] * first_s)
+            for panel in (load, fronts):
+                panel.axvspan(*view, color=style.PALE, lw=0, zorder=0)
+            _draw_inset(panels["I"], slips, trace, view)
+            # Points beyond the inset would stretch its axis of F_X.
+            seen = [
+                replace(each, points=each.points[_within(each.points[:, 0], view)])
+                for each in data
+            ]
+            _draw_measured_loads(panels["I"], seen, trace, first_s)
         figure.align_ylabels()
-        columns[0][0].set_title(_title(slips, title), loc="left", pad=4, wrap=True)
-        style.draw_key(figure, ncols=int(width_mm / look.font_size / KEY_WIDTH))
+        load.set_title(_title(slips, title), loc="left", pad=4, wrap=True)
+        if has_key:
+            style.draw_key(figure, ncols=int(width_mm / look.font_size / KEY_WIDTH))
     return figure
 
 
@@ -116,7 +132,7 @@ def draw_curve(
     start, end = _span(trace, data)
     with style.page(style.COLUMN_MM, CURVE_MM, look) as figure:
         axes = figure.subplots()
-        _draw_load(axes, "tangential_load_N", slips, trace, end)
+        _draw_load(axes, slips, trace, end)
         axes.set(xlim=(start, end), xlabel="Time $t$ [s]")
         if first_s > 0:
             axes.axvline(first_s, **FIRST_GLOBAL)
@@ -138,12 +154,12 @@ def _draw_measured_loads(
     axes: Axes, data: Sequence[Measured], trace: pd.DataFrame, first_s: float
 ) -> None:
     """Draw measured loads; the figure gets lines of text that say how far they are."""
-    curve = trace[["time_s", "tangential_load_N"]].to_numpy()
+    curve = trace[LOAD].to_numpy()
     loads = [each for each in data if not each.are_lengths]
-    told = [each.beside(curve, first_s, "N") for each in loads]
-    for each, label, line in zip(loads, told, cycle(LINES), strict=False):
+    labels = [each.beside(curve, first_s, "N") for each in loads]
+    for each, label, line in zip(loads, labels, cycle(LINES), strict=False):
         axes.plot(*each.points.T, **MEASURED, linestyle=line, label=label)
-    axes.figure.set_label("\n".join(" ".join(label.split()) for label in told))
+    axes.figure.set_label("\n".join(" ".join(label.split()) for label in labels))
 
 
 def _draw_measured_lengths(axes: Axes, data: Sequence[Measured]) -> None:
@@ -170,28 +186,17 @@ def _with_kinds(slips: pd.DataFrame) -> pd.DataFrame:
 
 
 def _draw_load(
-    axes: Axes, column: str, slips: pd.DataFrame, trace: pd.DataFrame, end: float
+    axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame, end: float
 ) -> None:
-    """Draw F_X about mu_k F_Z, or the staircase K x_1 with its risers in the colours of
-    the events."""
+    """Draw F_X about mu_k F_Z."""
     # One row more: the load goes on to the end of the panel.
     seen = trace[trace["time_s"].shift(fill_value=0.0) <= end]
-    axes.plot(seen["time_s"], seen[column], color=style.BLACK, linewidth=0.6)
-    axes.set_ylabel(LOADS[column])
-    if column == "tangential_load_N":
-        for carried in (slips["mu_k"] * slips["normal_load_N"])[:1]:
-            axes.axhline(carried, **MEAN)
-            place: Any = ("axes fraction", "data")
-            axes.annotate(r"$\mu_k F_Z$", (0.02, carried), xycoords=place, va="top")
-        return
-    axes.annotate(STAIRCASE, (0.02, 0.86), xycoords="axes fraction")
-    slips = slips[slips["onset_s"] <= end]
-    for kind, events in slips.groupby("kind", observed=True):
-        low, high = (
-            np.interp(times, trace["time_s"], trace[column])
-            for times in (events["onset_s"], events["end_s"].fillna(end))
-        )
-        axes.vlines(events["onset_s"], low, high, **KINDS[str(kind)])
+    axes.plot(*seen[LOAD].to_numpy().T, color=style.BLACK, linewidth=0.6)
+    axes.set_ylabel("$F_X$ [N]")
+    for carried in (slips["mu_k"] * slips["normal_load_N"])[:1]:
+        axes.axhline(carried, **MEAN)
+        place: Any = ("axes fraction", "data")
+        axes.annotate(r"$\mu_k F_Z$", (0.02, carried), xycoords=place, va="top")
 
 
 def _draw_events(axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame) -> None:
@@ -214,18 +219,42 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame) -> None:
                 label="not over when the run ends",
             )
     edge = slips[slips["is_at_the_edge"]]
-    if len(edge):  # an empty line that is not clipped upsets the layout
-        axes.plot(edge["onset_s"], edge["reached_mm"], **TO_THE_EDGE)
+    # It is in the key of every scene; an empty line that is not clipped upsets the layout.
+    points = edge[["onset_s", "reached_mm"]].to_numpy().T
+    axes.plot(*points, **TO_THE_EDGE, clip_on=edge.empty)
     axes.set_ylim(0, 1.08 * style.MM_PER_M * slips["slider_length_m"].iloc[0])
 
 
-def _magnify(columns: Any, first_s: float, trace: pd.DataFrame) -> None:
-    """Mark what is magnified, and cut the riser of the global slip, which goes far
-    beyond the others."""
-    for panel in columns[0]:
-        panel.axvspan(0, ZOOM_END * first_s, color=style.PALE, linewidth=0, zorder=0)
-    top = np.interp(first_s, trace["time_s"], trace["K_x1_N"])
-    columns[1][0].set_ylim(-0.08 * top, 1.3 * top)
+def _draw_inset(
+    axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame, view: tuple[float, float]
+) -> None:
+    """Draw F_X about the first global slip, with the drops before it, and arrows at
+    those counted."""
+    start, end = view
+    at_ends = np.interp(view, *trace[LOAD].to_numpy().T)
+    inside = trace[_within(trace["time_s"], view)]
+    ends = pd.DataFrame(dict(zip(LOAD, (view, at_ends), strict=True)))
+    _draw_load(axes, slips, pd.concat([ends[:1], inside, ends[1:]]), end)
+    axes.margins(y=0.1)
+    axes.set_xlim(start, end)
+    # A tick at the edge would make the panel of one scene narrower than that of another.
+    ticks = axes.get_xticks()
+    axes.set_xticks(ticks[(ticks >= start) & (ticks < end - 0.02 * (end - start))])
+    axes.set_title(MAGNIFIED, loc="left", pad=4, wrap=True)
+    axes.set_xlabel("Time $t$ [s]")
+    seen = slips[_within(slips["onset_s"], view)]
+    for kind, events in seen.groupby("kind", observed=True):
+        drops = events[["onset_s", "load_after_N", "load_before_N"]].to_numpy().T
+        axes.vlines(*drops, **KINDS[str(kind)])
+    counted: Any = seen[seen["counted"] & ~seen["is_global"]].itertuples()
+    for event in counted:
+        point = (event.onset_s, event.load_before_N)
+        axes.annotate("", point, (0, 12), textcoords="offset points", arrowprops=ARROW)
+
+
+def _within(times: Any, view: tuple[float, float]) -> Any:
+    """Which times are in the magnified view."""
+    return (times >= view[0]) & (times <= view[1])
 
 
 def _title(slips: pd.DataFrame, title: str) -> str:

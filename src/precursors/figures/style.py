@@ -57,6 +57,7 @@ SCREEN_DPI = 120
 MOST_LETTERS = 45
 LEAST_LETTERS = 12
 LONGEST_NAME = 29
+TICKS = 0.9  # size of their labels, in those of the text: 7 pt is the least in print
 
 MU_SAPP_LABEL = r"$\mu_\mathrm{sapp}$ [-]"
 DOTTED: Options = {"color": GREY, "linewidth": 0.6, "linestyle": ":", "zorder": 1}
@@ -69,8 +70,6 @@ _SETTINGS: Options = {
     "ytick.major.width": 0.6,
     "xtick.major.size": 3,
     "ytick.major.size": 3,
-    "xtick.labelsize": "small",
-    "ytick.labelsize": "small",
     "xtick.direction": "in",
     "ytick.direction": "in",
     "legend.frameon": False,
@@ -131,7 +130,9 @@ class Look:
     @property
     def settings(self) -> Options:
         """The settings of Matplotlib that follow."""
-        return _SETTINGS | {"font.size": self.font_size, "font.sans-serif": self.font}
+        ticks = TICKS * self.font_size
+        own = {"font.size": self.font_size, "font.sans-serif": self.font}
+        return _SETTINGS | own | {"xtick.labelsize": ticks, "ytick.labelsize": ticks}
 
 
 LOOK = Look()
@@ -257,8 +258,8 @@ class Measured:
             return self.label
         rms = np.sqrt(np.mean((values - np.interp(seen, *curve.T)) ** 2))
         until = "end" if isnan(first_global) else "first global slip"
-        first = f"{self.label}: {rms:.3g} {unit} rms from the run"
-        return f"{fill(first, MOST_LETTERS)}\nup to its {until}"
+        distance = f"{rms:.3g} {unit} rms from the run up to its {until}"
+        return fill(f"{self.label}: {distance}", MOST_LETTERS)
 
 
 def plain(text: str) -> str:

@@ -31,15 +31,26 @@ RESTING = 12
 PICTURES = MOVING + RESTING
 SHARES = np.minimum(np.arange(PICTURES) / (MOVING - 1), 1.0)  # of the event
 STUCK = style.PALE
+DARK_INK = "#E6E6E6"  # for readers whose browser is dark
+DARK_PAGE = "#16191D"
 KEY = "Coloured: the block slides; half as high: it slides back."
 STYLE = f"""
 text {{ font: 17px 'DejaVu Sans', sans-serif }}
-rect, path {{ stroke: {style.BLACK} }}
+text, path {{ fill: currentColor }}
+rect, path {{ stroke: currentColor }}
+.wave {{ color: {style.BLACK} }}
+.page {{ fill: white; stroke: none }}
 .lane {{ stroke: none }}
+@media (prefers-color-scheme: dark) {{
+  .wave {{ color: {DARK_INK} }}
+  .page {{ fill: {DARK_PAGE} }}
+  .lane {{ stroke: currentColor; stroke-width: 0.5 }}
+}}
 .number {{ text-anchor: end }}
 .middle {{ text-anchor: middle }}
 .spring {{ stroke: {style.GREY}; stroke-width: 1.5; fill: none }}
 .index {{ font-size: 70% }}
+.arrow {{ stroke-width: 3; fill: none }}
 .reach {{ stroke-width: 2; stroke-dasharray: 5 4 }}
 .now {{ stroke-width: 3 }}
 """
@@ -86,6 +97,8 @@ class Act:
         if self.event.is_global:
             return "global slip: all blocks at once"
         front = self.event.front
+        if front == self.event.n_blocks:
+            return "precursor: all blocks, not at once"
         return f"precursor: block{f's 1 to {front}' if front > 1 else ' 1'}"
 
 
@@ -116,10 +129,11 @@ def draw(run: Any, slips: pd.DataFrame) -> Movie:
     return Movie(
         "\n".join(
             [
-                f'<svg xmlns="{XMLNS}" viewBox="0 0 1000 {bottom + 70:.0f}">',
+                f'<svg xmlns="{XMLNS}" class="wave" viewBox="0 0 1000 {bottom + 70:.0f}">',
                 f"<title>{title}</title><style>{STYLE}</style>",
-                '<rect width="100%" height="100%" style="fill: white; stroke: none"/>',
+                '<rect class="page" width="100%" height="100%"/>',
                 f'<path d="M{LEFT - 40} {PLANE}H{RIGHT}"/>',
+                _drive(side),
                 *_springs(home, moved, side, len(acts)),
                 *(_block(i, home[i], moved[:, i], side, acts) for i in range(n)),
                 *(_caption(act, acts, home, side, pixels_per_m) for act in acts),
@@ -165,6 +179,16 @@ def _slides(transitions: NDArray[Any], event: Any) -> Slides:
             if mode:
                 found.append((int(block), start, stop, colors[mode]))
     return found
+
+
+def _drive(side: float) -> str:
+    """The wall that pushes, and an arrow to where; it moves too slowly to be seen."""
+    x, y = LEFT - BLOCK, PLANE - side / 2
+    return (
+        f'<path d="M{x} {PLANE}v{-BLOCK}h-6v{BLOCK}z"/>'
+        f'<path class="arrow" d="M4 {y:.1f}h22m-8 -6l8 6l-8 6"/>'
+        f'<text x="4" y="{PLANE - BLOCK - 6}">drive</text>'
+    )
 
 
 def _springs(

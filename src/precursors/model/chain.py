@@ -19,10 +19,10 @@ from precursors.model.checks import (
     block_array,
     not_negative,
     number,
-    number_array,
     positive,
     whole,
 )
+from precursors.model.profile import shares_of_profile
 
 FloatArray = NDArray[np.float64]
 # Beyond these a single slip takes more windows of time than a run can have, or a time
@@ -37,8 +37,6 @@ CELL_SPACING = 0.06  # of its two load cells [m]
 # Mode of a block without load in a state: it moves without friction, so that it neither
 # sticks nor slips and has no transitions.
 FREE = 2
-# A position that was converted may be this share beyond the end of the slider.
-ROUNDING = 1e-12
 # Of the mean load: a block with less rings on from one slip into the next, and would join
 # them in one event. In 60 random chains under the paper's drive, mu_sapp is the same with
 # and without the light blocks from 6e-5 on, in 38 % at 1e-5 and in 12 % from 1e-6 down.
@@ -211,26 +209,9 @@ class Chain:
         **slider
             Other arguments of `from_slider`.
         """
-        cells = block_array("profile", profile, "any unit")
-        if cells.ndim not in (1, 2) or not (
-            np.isfinite(cells).all() and cells.min(initial=0) >= 0 < cells.sum()
-        ):
-            raise ValueError(
-                "profile must be a column or matrix of numbers of at least 0, not all 0"
-            )
-        shape = cells if cells.ndim == 1 else cells.sum(axis=1)
         n = whole("n_blocks", n_blocks, MOST_BLOCKS)
-        if positions is None:
-            cell, part = np.divmod(np.arange(n + 1) * len(shape), n)
-            up_to_edge = (
-                np.append(0, shape.cumsum())[cell]
-                + part / n * np.append(shape, 0)[cell]
-            )
-        else:
-            length = positive("length", slider.get("length", SLIDER["length"]), "m")
-            edges = np.arange(n + 1) / n * length
-            up_to_edge = _integral(positions, shape, edges)
-        loads = np.diff(up_to_edge) / up_to_edge[-1]
+        length = positive("length", slider.get("length", SLIDER["length"]), "m")
+        loads = shares_of_profile(profile, n, positions, length)
         return cls.from_slider(
             weights=positive("normal_load", normal_load, "N") * loads, **slider
         )
@@ -315,29 +296,6 @@ def remember_theta(chain: Chain, theta: float | str) -> Chain:
     """Let a chain that was just made know its theta."""
     object.__setattr__(chain, "theta", parse_theta(theta))
     return chain
-
-
-def _integral(
-    positions: ArrayLike, profile: FloatArray, edges: FloatArray
-) -> FloatArray:
-    """Integral of the straight lines between the points of a profile, from 0 to each
-    edge [m]; outside the points it has the end values."""
-    x = number_array("positions", positions, "m")
-    if x.shape != profile.shape or len(x) < 2 or not (np.diff(x) > 0).all():
-        raise ValueError(
-            "positions must rise, one for each value of the profile, at least two, but "
-            f"are {' '.join(repr(x).split())}"
-        )
-    if not (x[0] >= 0 and x[-1] <= edges[-1] * (1 + ROUNDING)):
-        raise ValueError(
-            f"positions must be on the slider, from 0 to {edges[-1]:g} m, but are "
-            f"{x[0]:g} to {x[-1]:g} m"
-        )
-    places = np.union1d(x, edges)
-    values = np.interp(places, x, profile)
-    pieces = np.diff(places) * (values[1:] + values[:-1]) / 2
-    integral = np.append(0.0, np.cumsum(pieces))
-    return integral[np.searchsorted(places, edges)]
 
 
 def linear_weights(n_blocks: int, normal_load: float, theta: float | str) -> FloatArray:

@@ -25,7 +25,7 @@ new modes before that instant. So event functions are proved from -gap on.
 """
 
 from fractions import Fraction
-from itertools import pairwise
+from itertools import compress, pairwise
 from operator import mul
 from typing import NamedTuple
 
@@ -77,6 +77,7 @@ class Proof:
 
     def __init__(self, certificate: Certificate) -> None:
         self.chain = certificate.chain
+        self.bears_load = self.chain.to_chain().bears_load
         self.bits = certificate.bits
         self.until = certificate.until
         self.unit_seconds = time_unit(self.chain)
@@ -159,8 +160,9 @@ class Proof:
 
     def step(self) -> bool:
         """Prove the next transition; False where the run ends."""
-        self.all_slid = self.all_slid or all(self.state.mode[1:-1])
-        if not {1, -1} & {*self.state.mode}:
+        slides = [*compress(self.state.mode[1:-1], self.bears_load)]
+        self.all_slid = self.all_slid or all(slides)
+        if not any(slides):
             if self.until and self.all_slid:
                 return False
             self.all_slid = False

@@ -71,8 +71,7 @@ def run_batch(
         positions=positions,
         velocities=velocities,
     )
-    words = np.zeros((len(chains), kernel.WORDS), np.int64)
-    progress = words.view(kernel.PROGRESS)[:, 0]
+    progress = np.zeros(len(chains), kernel.PROGRESS)
     progress["stride"] = _room.stride
     record = _room.record
     states = _room.states
@@ -80,7 +79,7 @@ def run_batch(
     told: Any = None  # it takes a quarter of a short run's time
     try:
         while True:
-            arrays = (words, record, states, _room.memory)
+            arrays = (progress, record, states, _room.memory)
             n_finished, rows, stored = kernel.run_batch(
                 batch, end, *arrays, first, WINDOWS_PER_CALL
             )
@@ -137,6 +136,8 @@ def _runs(
         )
         if status == kernel.PAUSED:
             raise _unfinished(run, end)
+        if kernel.is_compiled_now():
+            run.at(0.0)
         yield run
         row = end_row + 1
         state = end_state

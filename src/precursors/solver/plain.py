@@ -213,14 +213,16 @@ def find_transitions(
         for i in np.flatnonzero(abs(state.mode) == 1)
     ]
     window = WINDOW / chain.fastest_frequency_bound
+    bears_load = chain.bears_load
     is_global = False
     at_once = 0
     onset = elapsed = since = 0.0
     while len(rows) < most and (left := duration - onset - elapsed) > 0.0:
-        is_global = is_global or bool(state.mode[1:-1].all())
+        slides = state.mode[1:-1][bears_load] != 0
+        is_global = is_global or bool(slides.all())
+        if until_global and is_global and not slides.any():
+            break
         if not (abs(state.mode) == 1).any():
-            if until_global and is_global:
-                break
             onset = onset + elapsed
             elapsed = 0.0
         if is_at_rest(state):

@@ -48,7 +48,7 @@ def simulate(
         Time to run [s]; with `until`, the limit.
     until : "global slip", optional
         Stop at the end of the first event in which all blocks slide at the same
-        instant.
+        instant; blocks with next to no load (`Chain.bears_load`) do not count.
     start_positions, start_velocities : array_like, shape (N,), optional
         Positions [m] relative to springs at natural length, and velocities [m/s], at
         time 0; zero by default.

@@ -83,7 +83,7 @@ class Announcement(event.Listener):
         if not self.is_made:
             self.is_made = True
             print(
-                "compiling the solver for this machine, once: some 20 s",
+                "compiling the solver for this machine, once: some 10 s",
                 file=sys.stderr,
                 flush=True,
             )
@@ -129,7 +129,7 @@ def _cache_place(name: str, digest: str) -> Path | None:
         pass
     warnings.warn(
         f"compiled code cannot be kept in {base}, so every process compiles "
-        "for some 20 s: set NUMBA_CACHE_DIR to a directory that can be written",
+        "for some 10 s: set NUMBA_CACHE_DIR to a directory that can be written",
         stacklevel=3,
     )
     return None

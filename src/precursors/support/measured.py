@@ -61,6 +61,7 @@ COMMENT = re.compile(r"\s*[#%]")
 # What a spreadsheet writes where a formula fails, as #N/A, is no comment.
 FAILED = re.compile(r"\s*#[^\W\d_a-z][^\s;,a-z]*\s*([;,\t]|$)")
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d{1,3})?", re.ASCII)
+BEGINS = re.compile(r"[-+.,]?\d")  # a number, even if more stands in its cell
 NAME_AND_UNIT = re.compile(r"(.*?)\s*[\[(]\s*([^\[\]()]*?)\s*[\])]")
 ROUNDING = 1e-12  # by which a share that is computed may be above 1
 
@@ -96,10 +97,12 @@ class Table(NamedTuple):
         ValueError
             If a column is not certain, or a row is not whole.
         """
+        if not self.rows:
+            raise ValueError("there are no numbers")
         # A column alone needs no name.
         names = self.names or [str(needed[0]) if len(needed) == 1 else ""]
-        found = [(q, _match(q, names, choice.get(q.symbol, ""))) for q in needed]
-        doubts = [match.doubt for _, match in found if match.doubt]
+        matches = [(q, _match(q, names, choice.get(q.symbol, ""))) for q in needed]
+        doubts = [match.doubt for _, match in matches if match.doubt]
         if doubts:
             self._check_that_numbers_are_below()
         for line, row in zip(self.lines, self.rows, strict=True):
@@ -109,16 +112,16 @@ class Table(NamedTuple):
                     "points, or semicolons between columns, and 0 for no load)"
                 )
         if doubts:
-            chosen = ",".join(f"{q.symbol}={match.suggestion}" for q, match in found)
+            chosen = ",".join(f"{q.symbol}={match.suggestion}" for q, match in matches)
             how = "choose with --columns" if self.separator else "rename them, as in"
             called = ", ".join(map(repr, names))
             raise ValueError(
                 f'{"; ".join(doubts)}; the columns are {called}: {how} "{chosen}"'
             )
-        cells = "".join(row[match.place] for row in self.rows for _, match in found)
+        cells = "".join(row[match.place] for row in self.rows for _, match in matches)
         if self.separator in (";", "\t") and "," in cells and "." in cells:
             raise ValueError("it has decimal commas and decimal points: write one")
-        return np.column_stack([self._numbers(*pair, length) for pair in found])
+        return np.column_stack([self._numbers(*pair, length) for pair in matches])
 
     def _numbers(self, quantity: Quantity, match: Match, length: float) -> Numbers:
         is_share = quantity is LENGTH
@@ -145,7 +148,7 @@ class Table(NamedTuple):
         return np.array(values)
 
     def _check_that_numbers_are_below(self) -> None:
-        begins = [bool(row) and _is_value(row[0][:1] + "0") for row in self.rows]
+        begins = [bool(row and BEGINS.match(row[0])) for row in self.rows]
         if self.separator and True in begins[1:] and not begins[0]:
             line = self.lines[begins.index(True, 1) - 1]
             raise ValueError(
@@ -194,8 +197,6 @@ def read_table(source: AnyPath | pd.DataFrame, header_line: int | None = None) -
         return Table([], [*below], [names, *rows], separator)
     for cell in filter(_is_value, names):
         raise ValueError(f"line {first}: {cell!r} is no name; all columns need names")
-    if not rows:
-        raise ValueError("there are no numbers")
     return Table(names, [*below][1:], rows, separator)
 
 
@@ -216,12 +217,14 @@ def read_series(
     with refusals_of(source):
         table = read_table(source, header_line)
         words = [_parts(name)[0] for name in table.names]
-        said = [q for q in (x, *ys) if any(map(q.is_said_by, words))]
-        chosen = [q for q in (x, *ys) if q.symbol in choice]
-        if sample_rate is not None and x in said + chosen:
+        if sample_rate is not None and (
+            x.symbol in choice or any(map(x.is_said_by, words))
+        ):
             raise ValueError("it has times: leave out --sample-rate")
+        chosen = [y for y in ys if y.symbol in choice]
+        named = [y for y in ys if any(map(y.is_said_by, words))]
         series = []
-        for y in [q for q in chosen or said if q is not x] or ys[:1]:
+        for y in chosen or named or ys[:1]:
             needed = [x, y] if sample_rate is None else [y]
             columns = table.columns(needed, choice, length)
             if sample_rate is not None:
@@ -307,8 +310,8 @@ def _match(quantity: Quantity, names: Sequence[str], chosen: str) -> Match:
 
 def _parts(name: str) -> tuple[str, str]:
     """A name without its unit, and the unit, in brackets at its end."""
-    found = NAME_AND_UNIT.fullmatch(name)
-    return (found[1], re.sub("[µμ]", "u", found[2])) if found else (name, "")
+    parts = NAME_AND_UNIT.fullmatch(name)
+    return (parts[1], re.sub("[µμ]", "u", parts[2])) if parts else (name, "")
 
 
 def _is_value(cell: str) -> bool:

@@ -113,8 +113,7 @@ def predicted_errors():
     errors |= {"actual_error_s": [1e-17, 1e-13, 1e-10]}
     thetas = {"trailing": -5 / 6, "steep": 0.9}
     tables = [pd.DataFrame(errors).assign(chain=name) for name in thetas]
-    exponents = pd.DataFrame({"theta": [-5 / 6, 0.0], "exponent_per_s": [50.0, 0.7]})
-    return figure.draw(pd.concat(tables), exponents, thetas, 1e-9)
+    return figure.draw(pd.concat(tables), thetas, 1e-9)
 
 
 PICTURES = {"horizon": predicted_errors}

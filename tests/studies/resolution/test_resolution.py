@@ -20,7 +20,7 @@ def test_a_finer_study_is_drawn_to_its_end_and_the_title_says_where_it_ends():
     for axes in (counts, frictions):
         assert max(line.get_xdata()[-1] for line in axes.lines[:9]) == 320
     assert counts.get_title() == "More blocks, more events"
-    assert frictions.get_title() == r"With many blocks, every loading gives $\mu_k$"
+    assert frictions.get_title() == r"With many blocks, every median is near $\mu_k$"
 
 
 def test_differences_of_a_finer_study_take_the_place_of_those_with_the_same_n():

@@ -5,7 +5,6 @@ from precursors.support.files import read_table
 
 with job() as snakemake:
     errors = read(read_table, snakemake.input.errors)
-    exponents = read(read_table, snakemake.input.exponents)
     params = snakemake.params
-    figure = draw(errors, exponents, params.thetas, params.tolerance)
+    figure = draw(errors, params.thetas, params.tolerance)
     save(figure, snakemake.output, "how errors grow, predicted and actual")

@@ -53,7 +53,6 @@ rule draw_horizon:
     """Draw how errors grow."""
     input:
         errors="results/tables/horizon.csv",
-        exponents="results/tables/lyapunov.csv",
     output:
         report(
             "results/figures/horizon.svg",

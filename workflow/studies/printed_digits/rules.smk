@@ -35,9 +35,10 @@ rule tabulate_printed_digits:
 if IS_PAPERS:
 
     rule draw_printed_digits:
-        """Draw the paper's six numbers, and mu_sapp of the sliders with the same printed inputs."""
+        """Draw the paper's six numbers, and how often noise and other digits keep the counts."""
         input:
             slips=SLIPS,
+            noise="results/tables/noise_members.csv",
             members="results/tables/digits_members.csv",
             shares="results/tables/digits.csv",
         output:
@@ -46,7 +47,7 @@ if IS_PAPERS:
                 caption="caption.rst",
                 category="Sensitivity",
                 labels={
-                    "figure": "hero: the paper's six numbers, and mu_sapp of the sliders with the same printed inputs"
+                    "figure": "hero: the paper's six numbers, and how often noise and other digits keep the counts"
                 },
             ),
             collect("results/figures/hero.{kind}", kind=MORE_FORMATS),

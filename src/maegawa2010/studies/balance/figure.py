@@ -10,15 +10,15 @@ from matplotlib.figure import Figure
 from precursors.figures import style
 from precursors.figures.style import Options
 
-HEIGHT_MM = 96.0
+HEIGHT_MM = 80.0
 FINDING = "the mean load is the kinetic friction, whatever the loading"
 AGREES = 0.001  # of F_Z: so near to mu_k is every mean where the title says so
-LOADS = (0.28, 0.69)  # F_X/F_Z: words stand above the curves
+LOADS = (0.28, 0.74)  # F_X/F_Z: words stand above the curves
 TICKS = 0.15  # from mu_k
 CURVE: Options = {"linewidth": 0.6}
 BEYOND: Options = CURVE | {"color": style.GREY}
-MEAN: Options = {"color": style.BLACK, "linewidth": 1.4, "solid_capstyle": "butt"}
-WORDS: Options = {"y": 0.94, "va": "top", "fontweight": "bold"}
+MEAN: Options = {"color": style.BLACK, "linewidth": 1.0, "solid_capstyle": "butt"}
+WORDS: Options = {"y": 0.95, "va": "top", "fontsize": "small", "fontweight": "bold"}
 
 
 def draw(table: pd.DataFrame, curves: pd.DataFrame) -> Figure:
@@ -38,7 +38,7 @@ def draw(table: pd.DataFrame, curves: pd.DataFrame) -> Figure:
             theta = table["theta"][table["scene"] == scene].iloc[0]
             name = style.LOADINGS[int(np.sign(theta))]
             color = style.theta_color(theta)
-            axes.text(0.015, s=name, **WORDS, color=color, transform=axes.transAxes)
+            axes.text(0.012, s=name, **WORDS, color=color, transform=axes.transAxes)
         for axes in panels[-1]:
             axes.set_xlabel("Time [s]")
         panels[len(scenes) // 2, 0].set_ylabel("$F_X/F_Z$ [-]")
@@ -61,8 +61,10 @@ def _draw_run(axes: Axes, row: Any, curves: pd.DataFrame) -> None:
     axes.plot(curve["time_s"][is_known], curve["load"][is_known], **CURVE, color=color)
     axes.axhline(row.mu_k, **style.DOTTED)
     axes.plot([row.first_s, row.last_s], [row.mean] * 2, **MEAN)
-    number = "no mean" if np.isnan(row.mean) else f"mean {row.mean:.4f}"
-    axes.text(0.985, s=number, **WORDS, ha="right", transform=axes.transAxes)
+    number = "no mean"
+    if not np.isnan(row.mean):
+        number = f"mean {row.mean:.4f}\nlargest {row.largest:.3f}"
+    axes.text(0.988, s=number, **WORDS, ha="right", transform=axes.transAxes)
     ticks = [row.mu_k - TICKS, row.mu_k, row.mu_k + TICKS]
     axes.set_yticks(
         ticks, [f"{ticks[0]:g}", rf"$\mu_k$ = {row.mu_k:g}", f"{ticks[2]:g}"]

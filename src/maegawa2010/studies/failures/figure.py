@@ -53,6 +53,7 @@ def _draw_curves(axes: Axes, panel: Any, curves: pd.DataFrame) -> None:
             **look,
         )
     axes.set_yscale(panel.yscale)
+    axes.tick_params(labelsize="small")
     if pd.notna(panel.bottom):
         axes.set_ylim(bottom=panel.bottom)
     axes.set_xlabel(panel.x, fontsize="small")

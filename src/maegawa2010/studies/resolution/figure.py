@@ -9,12 +9,24 @@ from maegawa2010 import printed
 from precursors.figures import style
 from precursors.figures.style import Options
 
-HEIGHT_MM = 84.0
+HEIGHT_MM = 66.0
+FEWEST = 10  # blocks that are drawn; with fewer, numbers jump from one N to the next
 AGREES = 0.005  # less than so far from mu_k
-EXPERIMENT: Options = {"linewidth": 1.6, "clip_on": False, "zorder": 3}
 MEDIAN: Options = {"linewidth": 1.2}
 ALL_EVENTS: Options = {"linestyle": "--"}
-LIMIT: Options = {"linestyle": "none", "marker": "_", "markersize": 5}
+RANGE: Options = {"linestyle": "none", "marker": "|", "markersize": 8}
+EXPERIMENT: Options = {
+    "linestyle": "none",
+    "marker": "<",
+    "markersize": 5,
+    "clip_on": False,
+}
+NAMES = {-1: "trailing edge", 0: "uniform load", 1: "leading edge"}
+BESIDE = 1.04  # of three loadings at one N, in times of N
+# Of the axis of N, in times of the largest, for the names at the ends of lines; these
+# stand at least so far apart, of the height of the panel.
+END_ROOM = 4.5
+APART = 0.075
 
 
 def draw(
@@ -25,29 +37,30 @@ def draw(
 ) -> Figure:
     """Draw events and mu_sapp against N; dotted lines mark the paper's N and mu_k.
 
-    Of resolution.csv, medians are lines, and 5 and 95 % of the runs are ticks. `finer`
-    is that of a larger study, which is drawn from its smallest N on.
+    Of resolution.csv, medians are lines, and 5 to 95 % of the runs are bars. `finer` is
+    that of a larger study, which is drawn from its smallest N on.
     """
     if finer is not None:
         fewer = table[table["n_blocks"] < finer["n_blocks"].min()]
         table = pd.concat([fewer, finer])
+    largest = table["n_blocks"].max()
+    table = table[table["n_blocks"] >= min(FEWEST, largest)]
+    medians = table.pivot_table("q50", "n_blocks", ["quantity", "theta"])
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         counts, frictions = figure.subplots(1, 2)
-        for _, of_scene in table.groupby("scene", sort=False):
-            rows = dict(list(of_scene.groupby("quantity")))
-            _draw_numbers(counts, rows["events_counted"])
-            _draw_numbers(frictions, rows["mu_sapp"])
-            color = style.theta_color(of_scene["theta"].iloc[0])
-            every = rows["events_to_global_slip"]
-            counts.plot(every["n_blocks"], every["q50"], color=color, **ALL_EVENTS)
+        for _, rows in table.groupby(["theta", "quantity"]):
+            quantity = rows["quantity"].iloc[0]
+            if quantity == "events_to_global_slip":
+                color = style.theta_color(rows["theta"].iloc[0])
+                counts.plot(rows["n_blocks"], rows["q50"], color=color, **ALL_EVENTS)
+            elif quantity in ("events_counted", "mu_sapp"):
+                _draw_numbers(frictions if quantity == "mu_sapp" else counts, rows)
         for sign, count in printed.EVENTS_OF_EXPERIMENT.items():
+            where = counts.get_yaxis_transform()
             color = style.theta_color(sign)
-            counts.axhline(count, 0.975, 1.0, color=color, **EXPERIMENT)
-        place = (0.965, max(printed.EVENTS_OF_EXPERIMENT.values()))
-        where = counts.get_yaxis_transform()
-        counts.text(*place, "experiment", transform=where, ha="right", va="center")
+            counts.plot(1.0, count, transform=where, color=color, **EXPERIMENT)
         counts.set(ylabel="Events up to the first global slip [-]", yscale="log")
-        style.set_ticks(counts.yaxis, [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000])
+        style.set_ticks(counts.yaxis, [5, 10, 20, 50, 100, 200, 500, 1000, 2000])
         frictions.set_ylabel(style.MU_SAPP_LABEL)
         levels = {r"$\mu_k$": mu_k, "paper": printed.MU_SAPP}
         for level in levels.values():
@@ -57,15 +70,16 @@ def draw(
         for axes in (counts, frictions):
             axes.set(xscale="log", xlabel="Number of blocks $N$ [-]")
             axes.axvline(papers_n, **style.DOTTED)
-            style.set_ticks(axes.xaxis, [2, 5, 10, 20, 50, 100, 200])
-        medians = table.pivot_table("q50", "n_blocks", ["quantity", "scene"])
+            style.set_ticks(axes.xaxis, [10, 20, 50, 100, 200])
+            axes.set_xlim(right=END_ROOM * largest)
+        _name_ends(counts, medians[["events_counted", "events_to_global_slip"]])
+        _name_ends(frictions, medians[["mu_sapp"]])
         events = medians["events_counted"]
         if (events.iloc[-1] > events.iloc[0]).all():
             counts.set_title("More blocks, more events")
         off = medians["mu_sapp"].iloc[-1] - mu_k
         if (off.abs() < AGREES).all():
-            frictions.set_title(r"With many blocks, every loading gives $\mu_k$")
-        frictions.legend(labelcolor="linecolor", loc="upper right")
+            frictions.set_title(r"With many blocks, every median is near $\mu_k$")
         _draw_key(figure)
     return figure
 
@@ -75,15 +89,41 @@ def _draw_numbers(axes: Axes, rows: pd.DataFrame) -> None:
     theta = rows["theta"].iloc[0]
     color = style.theta_color(theta)
     n = rows["n_blocks"]
-    axes.plot(n, rows[["q05", "q95"]], color=color, **LIMIT)
-    loading = style.LOADINGS[int(np.sign(theta))]
-    axes.plot(n, rows["q50"], color=color, **MEDIAN, label=loading)
+    beside = n * BESIDE ** np.sign(theta)
+    axes.vlines(beside, rows["q05"], rows["q95"], color=color, linewidth=1.0)
+    axes.plot(n, rows["q50"], color=color, **MEDIAN)
+
+
+def _name_ends(axes: Axes, medians: pd.DataFrame) -> None:
+    """Write the loading at the end of each line, names that would overlap above each
+    other."""
+    ends = medians.iloc[-1].sort_values()
+    points = [(medians.index[-1], value) for value in ends]
+    axes.autoscale_view()
+    to_panel = axes.transData + axes.transAxes.inverted()
+    x, y = to_panel.transform(points).T
+    # Each moves up to leave the one below it room, and then all of them back a little.
+    step = APART * np.arange(len(y))
+    up = np.maximum.accumulate(y - step) + step
+    heights = up - np.mean(up - y)
+    for (_, theta), height in zip(ends.index, heights, strict=True):
+        axes.text(
+            x[0] + 0.02,
+            height,
+            NAMES[int(np.sign(theta))],
+            transform=axes.transAxes,
+            va="center",
+            color=style.theta_color(theta),
+            # No dotted line goes through a name.
+            bbox={"facecolor": "white", "linewidth": 0, "pad": 0},
+        )
 
 
 def _draw_key(figure: Figure) -> None:
     entries = [
         style.mark("median, counted in Fig. 13", **MEDIAN),
         style.mark("median, all events", **ALL_EVENTS),
-        style.mark("5 and 95 % of the runs", **LIMIT),
+        style.mark("5 to 95 % of the runs", **RANGE),
+        style.mark("experiment", **EXPERIMENT),
     ]
     style.draw_key(figure, entries)

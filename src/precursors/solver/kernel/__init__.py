@@ -23,12 +23,12 @@ units the motion is
     dT_i/dt = c_i (v_{i-1} - v_i),
     dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i    where block i slides.
 
-Column 0 of every array is the drive, columns 1..N are the blocks. Beyond them is room
-for a group of four.
+All of it is in one array, `motion`, whose rows `arrays` names. Column 0 is the drive,
+columns 1..N are the blocks. Beyond them is room for a group of four.
 
 | `plain` | kernel |
 |---|---|
-| `State` | `arrays.MotionArrays`, with room to work in |
+| `State` | rows of `motion`, with room to work in |
 | `at_start` | `events.take_start` |
 | `expand` | `series.expand`: velocities and net forces; spring forces follow from slips |
 | `move` | `series.move`, which sums terms group by group (`powers`, `sum_series`) |
@@ -42,12 +42,11 @@ for a group of four.
 from precursors.solver.kernel.arrays import (
     PROGRESS,
     ROW,
-    WORDS,
     Batch,
     End,
     memory_for,
 )
 from precursors.solver.kernel.events import run_batch
 from precursors.solver.kernel.layout import FINISHED, PAUSED
-from precursors.solver.kernel.states import evaluate
+from precursors.solver.kernel.states import evaluate, is_compiled_now
 from precursors.solver.kernel.units import parameters

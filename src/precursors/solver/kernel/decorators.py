@@ -3,17 +3,17 @@
 from pathlib import Path
 from typing import Any
 
-from numba import int64
-
 from precursors.support.compiled import entry, untyped
 
-# Numba compiles a function anew for an argument that is a literal number, unless its
-# variable has a type.
-INDEX = dict.fromkeys(("block_1", "first_row", "last_row"), int64)
-_options: dict[str, Any] = {"error_model": "numpy", "locals": INDEX}
+_options: dict[str, Any] = {"error_model": "numpy"}
+# Numba need not make these functions ready for Python, which then must not call them:
+# it would crash. `py_func` is what they were made from.
+_within = {**_options, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 # Products may be fused with sums, but not in the event loop, in starts and in units.
-inner: Any = untyped.njit(**_options, fastmath={"contract"}, forceinline=True)
-seldom: Any = untyped.njit(**_options, fastmath={"contract"})
-inner_unfused: Any = untyped.njit(**_options, forceinline=True)
-unfused: Any = untyped.njit(**_options)
+inner: Any = untyped.njit(**_within, fastmath={"contract"}, forceinline=True)
+seldom: Any = untyped.njit(**_within, fastmath={"contract"})
+unfused: Any = untyped.njit(**_within)
+# Parts of the event loop become one function before it is compiled: compiling one
+# inside the other would do the work again at each level.
+part: Any = untyped.njit(**_within, inline="always")
 outer = entry(Path(__file__).parent, **_options, nogil=True)

@@ -1,12 +1,25 @@
 """The event loop: chains from their start, transition after transition, into a
 record."""
 
-from precursors.model.chain import FREE
-from precursors.solver.kernel.arrays import ROW, progress_at
+from numba import int64
+
+from precursors.model.chain import FREE, LEAST_SHARE
+from precursors.solver.kernel.arrays import (
+    BEARS_LOAD,
+    COUPLING,
+    FORCE_REST,
+    MODE,
+    NET_FORCE,
+    SIGN,
+    SPRING_FORCE,
+    STRENGTH,
+    VELOCITY,
+    WHOLE,
+)
 from precursors.solver.kernel.decorators import (
     inner,
-    inner_unfused,
     outer,
+    part,
     seldom,
     unfused,
 )
@@ -28,7 +41,6 @@ from precursors.solver.kernel.layout import (
     WIDTH,
     WINDOW,
 )
-from precursors.solver.kernel.pointers import EIGHT, numbers, row_address
 from precursors.solver.kernel.proof import prove, search
 from precursors.solver.kernel.roots import zero_below
 from precursors.solver.kernel.series import (
@@ -40,33 +52,33 @@ from precursors.solver.kernel.series import (
     take_net_force,
     two_sum,
 )
-from precursors.solver.kernel.units import lay_out
+from precursors.solver.kernel.units import set_up
 
 
 @outer
-def run_batch(batch, end, progress, record, states, memory, first, windows):
+def run_batch(batch, end, progress, record, states, motion, first, windows):
     """Run chain after chain, from the first that is not finished on, into one record.
 
     Row j of `batch` is a chain with its start, row j of `progress` says where it is.
     Returns how many chains are finished, and how many rows and states they took. It
     stops before a new chain if the record is half full, and pauses the present one if
     record or states are full or after `windows` windows. The state of a paused chain is
-    in `memory`, and its rows follow those of the others; it goes on in a record that
+    in `motion`, and its rows follow those of the others; it goes on in a record that
     begins with them.
     """
     n_blocks = batch.weights.shape[1]
     used = stored = 0
     for j in range(first, batch.weights.shape[0]):
-        mine = progress_at(row_address(progress, j))
+        mine = progress[j]
         is_new = mine.stored == 0
         if is_new:
             is_full = 2 * used + n_blocks >= record.shape[0]
             if is_full or stored == states.shape[0]:
                 return j, used, stored
-            memory[:] = 0.0
-        chain, motion = lay_out(batch.parameters[j], batch.weights[j], memory)
-        my_record = row_address(record, used)
-        my_states = row_address(states, stored)
+            motion[:] = 0.0
+        chain = set_up(batch.parameters[j], batch.weights[j], motion)
+        my_record = record[used:]
+        my_states = states[stored:]
         if is_new:
             start = batch.positions[j], batch.velocities[j], batch.weights[j]
             take_start(
@@ -99,12 +111,15 @@ def take_start(start, parameters, chain, motion, progress, record, states):
     positions, velocities, weights = start
     mass, stiffness, spring, _, _, _ = parameters
     stiffest = farthest = before = 0.0
+    least = LEAST_SHARE * weights.mean()
     for i in range(chain.n_blocks):
         stiffest = max(stiffest, spring)
         farthest = max(farthest, abs(positions[i]))
-        motion.spring_force[i + 1] = spring * (before - positions[i])
-        motion.velocity[i + 1] = velocities[i] * (mass / chain.tau)
-        motion.mode[i + 1] = 0 if weights[i] > 0.0 else FREE
+        motion[SPRING_FORCE, i + 1] = spring * (before - positions[i])
+        motion[VELOCITY, i + 1] = velocities[i] * (mass / chain.tau)
+        motion[MODE, i + 1] = 0 if weights[i] > 0.0 else FREE
+        motion[BEARS_LOAD, i + 1] = 1.0 if weights[i] >= least else 0.0
+        progress.loaded += 1 if weights[i] >= least else 0
         before = positions[i]
         spring = stiffness
     progress.tau = chain.tau
@@ -112,27 +127,27 @@ def take_start(start, parameters, chain, motion, progress, record, states):
     store_state(chain, motion, progress, states)
     for i in range(1, chain.n_blocks + 1):
         take_net_force(i, motion)
-        if motion.mode[i] == FREE:
+        if motion[MODE, i] == FREE:
             progress.free += 1
-            count_sliding(1, chain, progress)
-            take_mode(i, chain, motion)
+            count_sliding(1, i, motion, progress)
+            take_mode(i, motion)
             continue
         # A position of size x is known to its rounding: a block at its limit to within
         # that still sticks.
-        rounding = ROUNDINGS * (chain.strength[i] + 4.0 * stiffest * farthest)
-        mode = mode_at_rest(motion.net_force[i], chain.strength[i] + rounding)
-        if motion.velocity[i] != 0.0:
-            mode = 1 if motion.velocity[i] > 0.0 else -1
-        motion.mode[i] = mode
-        take_mode(i, chain, motion)
+        rounding = ROUNDINGS * (motion[STRENGTH, i] + 4.0 * stiffest * farthest)
+        mode = mode_at_rest(motion[NET_FORCE, i], motion[STRENGTH, i] + rounding)
+        if motion[VELOCITY, i] != 0.0:
+            mode = 1 if motion[VELOCITY, i] > 0.0 else -1
+        motion[MODE, i] = mode
+        take_mode(i, motion)
         if mode != 0:
-            count_sliding(1, chain, progress)
-            note_transition(i, mode, motion.spring_force[1], progress, record)
+            count_sliding(1, i, motion, progress)
+            note_transition(i, mode, motion[SPRING_FORCE, 1], progress, record)
     for i in range(1, chain.n_blocks + 1):
-        take_neighbours(i, chain, motion)
+        take_neighbours(i, motion)
 
 
-@unfused
+@part
 def find_transitions(chain, motion, end, limits, progress, record, states):
     """Run a chain until its end, or until it has so many transitions, states or
     windows.
@@ -152,7 +167,10 @@ def find_transitions(chain, motion, end, limits, progress, record, states):
         if progress.transitions >= progress.stride * progress.stored:
             store_state(chain, motion, progress, states)
         no_event = progress.sliding == progress.free
-        if no_event and (progress.free == 0 or is_at_rest(chain, motion)):
+        after_global = progress.all_slid != 0 and progress.loaded_sliding == 0
+        if end.until_global and after_global:
+            status = STOPPED
+        elif no_event and (progress.free == 0 or is_at_rest(chain, motion)):
             status = rest(chain, motion, end, progress, record)
         else:
             status = slide(chain, motion, end, progress, record)
@@ -163,44 +181,42 @@ def find_transitions(chain, motion, end, limits, progress, record, states):
 def store_state(chain, motion, progress, states):
     """Store the state that is reached: see `record.States.from_rows`."""
     n = chain.n_blocks
-    state = numbers(states + EIGHT * progress.stored * (2 + 3 * n))
+    state = states[progress.stored]
     state[0] = progress.transitions
     state[1] = progress.since * chain.tau
     for i in range(1, n + 1):
-        state[i + 1] = motion.spring_force[i]
-        state[i + 1 + n] = motion.velocity[i] * chain.speed
-        state[i + 1 + 2 * n] = motion.mode[i]
+        state[i + 1] = motion[SPRING_FORCE, i]
+        state[i + 1 + n] = motion[VELOCITY, i] * chain.speed
+        state[i + 1 + 2 * n] = motion[MODE, i]
     progress.stored += 1
 
 
-@inner_unfused
+@part
 def time_left(end, progress):
     """Time until the end of the run [tau]."""
     since_onset = (end.duration - progress.onset) - progress.onset_error
     return since_onset / progress.tau - progress.elapsed
 
 
-@inner_unfused
+@part
 def rest(chain, motion, end, progress, record):
     """Nothing moves: end the run, or wait in closed form until block 1 lets go."""
-    if end.until_global and progress.all_slid != 0:
-        return STOPPED
-    force = motion.spring_force
-    second = motion.force_rest
-    block_1 = 1
+    block_1 = int64(1)
     remaining = max(time_left(end, progress), 0.0)
-    loading_rate = chain.coupling[1] * chain.drive_velocity
-    wait = max((chain.strength[1] - motion.net_force[1]) / loading_rate, 0.0)
+    loading_rate = motion[COUPLING, 1] * chain.drive_velocity
+    wait = max((motion[STRENGTH, 1] - motion[NET_FORCE, 1]) / loading_rate, 0.0)
     if wait >= remaining:
         start_clock(remaining, progress)
         return FINISHED
     if wait > 0.0:
-        force[1], second[1] = two_sum(force[2], chain.strength[1] + second[2])
+        motion[SPRING_FORCE, 1], motion[FORCE_REST, 1] = two_sum(
+            motion[SPRING_FORCE, 2], motion[STRENGTH, 1] + motion[FORCE_REST, 2]
+        )
     take_net_force(block_1, motion)
     start_clock(wait, progress)
     set_mode(block_1, block_1, chain, motion)
-    count_sliding(1, chain, progress)
-    note_transition(block_1, block_1, force[1], progress, record)
+    count_sliding(1, block_1, motion, progress)
+    note_transition(block_1, block_1, motion[SPRING_FORCE, 1], progress, record)
     return PAUSED
 
 
@@ -217,23 +233,25 @@ def start_clock(wait, progress):
 
 
 @inner
-def count_sliding(more, chain, progress):
-    """Count the blocks that slide, and note when all do."""
+def count_sliding(more, i, motion, progress):
+    """Count the blocks that slide, and note when all do whose load counts."""
     progress.sliding += more
-    if progress.sliding == chain.n_blocks:
-        progress.all_slid = 1
+    if motion[BEARS_LOAD, i] > 0.0:
+        progress.loaded_sliding += more
+        if progress.loaded_sliding == progress.loaded:
+            progress.all_slid = 1
 
 
-@inner_unfused
+@part
 def note_time(progress, record):
     """Record the time, after the transitions so far; return the row."""
-    row = numbers(record + EIGHT * progress.transitions * ROW)
+    row = record[progress.transitions]
     row[0] = progress.onset + (progress.onset_error + progress.elapsed * progress.tau)
     row[4] = progress.since * progress.tau
     return row
 
 
-@inner_unfused
+@part
 def note_transition(i, new, load, progress, record):
     """Record that block i has a new mode now."""
     row = note_time(progress, record)
@@ -244,19 +262,17 @@ def note_transition(i, new, load, progress, record):
     progress.transitions += 1
 
 
-@inner_unfused
+@part
 def slide(chain, motion, end, progress, record):
     """Go through one window, to its first transition or to its end."""
     if progress.sliding == progress.free:
         # Only blocks without load move, which is no event.
-        if end.until_global and progress.all_slid != 0:
-            return STOPPED
         start_clock(0.0, progress)
     remaining = time_left(end, progress)
     if remaining <= 0.0:
         return FINISHED
     roundings = ROUNDINGS * 2.0 ** (progress.at_once // (4 * chain.n_blocks))
-    progress.farthest = farthest_sliding(progress.farthest, motion.mode)
+    progress.farthest = farthest_sliding(progress.farthest, motion)
     window = min(WINDOW, remaining)
     s, i, side = next_transition(window, roundings, chain, motion, progress)
     progress.elapsed += s
@@ -264,24 +280,24 @@ def slide(chain, motion, end, progress, record):
     progress.at_once = progress.at_once + 1 if s == 0.0 else 0
     if i == 0:
         return PAUSED
-    old = motion.mode[i]
+    old = int(motion[MODE, i])
     new = side
     if old != 0:
         # A block that sticks at the limit lets go at once where its force grows: its
         # margin decides.
         new = mode_at_rest(
-            motion.net_force[i],
-            chain.strength[i] + zero_below(i, roundings, chain, motion),
+            motion[NET_FORCE, i],
+            motion[STRENGTH, i] + zero_below(i, roundings, motion),
         )
     set_mode(i, new, chain, motion)
     progress.farthest = max(progress.farthest, i)
     if new != old:
-        count_sliding(abs(new) - abs(old), chain, progress)
-        note_transition(i, new, motion.spring_force[1], progress, record)
+        count_sliding(abs(new) - abs(old), i, motion, progress)
+        note_transition(i, new, motion[SPRING_FORCE, 1], progress, record)
     return PAUSED
 
 
-@inner_unfused
+@part
 def next_transition(window, roundings, chain, motion, progress):
     """Go to the first transition in a window: (time in it, block, side); (window, 0, 1)
     if there is none.
@@ -291,32 +307,26 @@ def next_transition(window, roundings, chain, motion, progress):
     are searched.
     """
     end = last_column(chain, progress.farthest)
-    whole = motion.whole
     begin(end, motion)
-    first_row = 2
-    last_row = PROOF_ORDER
-    expand(first_row, last_row, end, chain, motion)
-    if whole[1] != window:
-        powers(window, PROOF_ORDER, whole)
+    expand(int64(2), int64(PROOF_ORDER), end, motion)
+    if motion[WHOLE, 1] != window:
+        powers(window, PROOF_ORDER, WHOLE, motion)
     share, guessed = guess(end, motion)
     s = min(max(MARGIN * share, LEAST), 1.0) * window
     i = 0
     side = 1
     rows = order_at(s)
-    first_row = PROOF_ORDER + 2
-    expand(first_row, rows, end, chain, motion)
+    expand(int64(PROOF_ORDER + 2), rows, end, motion)
     if guessed > 0:
         root = find_root(share * window, guessed, rows, motion, progress)
         if NEAR * window < root <= s:
             s = root
             i = guessed
-            side = -1 if motion.sign[i] > 0.0 else 1
+            side = -1 if motion[SIGN, i] > 0.0 else 1
     progress.derivatives += rows * end
     move(s, end, chain, motion)
     if prove(end, i, motion) != 0:
-        share, found, found_side = search(
-            order_at(s), end, roundings, chain, motion, progress
-        )
+        share, found, found_side = search(order_at(s), end, roundings, motion, progress)
         if share < 1.0:
             s = share * s
             i = found

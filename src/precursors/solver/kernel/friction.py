@@ -2,38 +2,52 @@
 block at rest takes."""
 
 from precursors.model.chain import FREE
+from precursors.solver.kernel.arrays import (
+    COUPLING,
+    FELT,
+    FORCE_REST,
+    FRICTION,
+    HOLD,
+    MODE,
+    PUSH,
+    SIGN,
+    SLIDES,
+    SPRING_FORCE,
+    STRENGTH,
+    VELOCITY,
+)
 from precursors.solver.kernel.decorators import inner, seldom
 
 
 @inner
 def set_mode(i, new, chain, motion):
     """Apply a transition: a block that stops or turns has velocity zero."""
-    if motion.mode[i] != 0:
-        motion.velocity[i] = 0.0
-    motion.mode[i] = new
-    take_mode(i, chain, motion)
+    if motion[MODE, i] != 0:
+        motion[VELOCITY, i] = 0.0
+    motion[MODE, i] = new
+    take_mode(i, motion)
     for j in range(max(i - 1, 1), min(i + 1, chain.n_blocks) + 1):
-        take_neighbours(j, chain, motion)
+        take_neighbours(j, motion)
 
 
 @inner
-def take_mode(i, chain, motion):
+def take_mode(i, motion):
     """Set what follows from the mode of block i."""
-    mode = motion.mode[i]
-    motion.slides[i] = 1.0 if mode != 0 else 0.0
-    motion.sign[i] = mode
-    motion.push[i] = mode * chain.friction[i]
-    motion.hold[i] = 0.0 if mode != 0 else chain.strength[i]
+    mode = motion[MODE, i]
+    motion[SLIDES, i] = 1.0 if mode != 0 else 0.0
+    motion[SIGN, i] = mode
+    motion[PUSH, i] = mode * motion[FRICTION, i]
+    motion[HOLD, i] = 0.0 if mode != 0 else motion[STRENGTH, i]
 
 
 @inner
-def take_neighbours(i, chain, motion):
+def take_neighbours(i, motion):
     """Set whether the function watched of block i changes: it or a neighbour of it
     moves. A block without load has none."""
-    slides = motion.slides
-    coupling = chain.coupling
-    moved = slides[i] + coupling[i] * slides[i - 1] + coupling[i + 1] * slides[i + 1]
-    motion.felt[i] = 1.0 if moved > 0.0 and motion.mode[i] != FREE else 0.0
+    behind = motion[COUPLING, i] * motion[SLIDES, i - 1]
+    ahead = motion[COUPLING, i + 1] * motion[SLIDES, i + 1]
+    moved = motion[SLIDES, i] + behind + ahead
+    motion[FELT, i] = 1.0 if moved > 0.0 and motion[MODE, i] != FREE else 0.0
 
 
 @inner
@@ -49,21 +63,22 @@ def mode_at_rest(force, limit):
 def is_at_rest(chain, motion):
     """Whether nothing moves but the drive: all blocks stick, or bear no load and were
     never pushed."""
-    force = motion.spring_force
-    rest = motion.force_rest
     for i in range(1, chain.n_blocks + 1):
-        is_pushed = force[i] != force[i + 1] or rest[i] != rest[i + 1]
-        is_moved = motion.velocity[i] != 0.0 or is_pushed or i == 1
-        if abs(motion.mode[i]) == 1 or (motion.mode[i] == FREE and is_moved):
+        is_pushed = (
+            motion[SPRING_FORCE, i] != motion[SPRING_FORCE, i + 1]
+            or motion[FORCE_REST, i] != motion[FORCE_REST, i + 1]
+        )
+        is_moved = motion[VELOCITY, i] != 0.0 or is_pushed or i == 1
+        if abs(motion[MODE, i]) == 1 or (motion[MODE, i] == FREE and is_moved):
             return False
     return True
 
 
-@seldom
-def farthest_sliding(start, mode):
+@inner
+def farthest_sliding(start, motion):
     """Farthest block that slides, if none of those beyond `start` does; 1 where none
     slides."""
     i = start
-    while i > 1 and mode[i] == 0:
+    while i > 1 and motion[MODE, i] == 0:
         i -= 1
     return i

@@ -3,7 +3,15 @@
 import numpy as np
 
 from precursors.solver.kernel import lanes
-from precursors.solver.kernel.arrays import row
+from precursors.solver.kernel.arrays import (
+    FELT,
+    HOLD,
+    RATE,
+    SIGN,
+    SLIDES,
+    WEIGHT,
+    WHOLE,
+)
 from precursors.solver.kernel.decorators import inner
 from precursors.solver.kernel.layout import PROOF_ORDER, WIDTH
 from precursors.solver.kernel.series import powers
@@ -30,21 +38,19 @@ def watched(n, i, slides, motion):
 
     A root of g is a transition. Where a block slides, g is its velocity in the sense of
     its sliding: it stops. Where it sticks, g is the margin mu_s w - side F on the side
-    that is nearer at the start (Eq. 5): it lets go. `MotionArrays.sign` is the sense of the
-    sliding, or -side; `MotionArrays.hold` is mu_s w.
+    that is nearer at the start (Eq. 5): it lets go. SIGN is the sense of the sliding,
+    or -side; HOLD is mu_s w.
     """
     return lanes.choose(
-        slides, lanes.load(row(n, motion), i), lanes.load(row(n + 1, motion), i)
+        slides, lanes.load(motion, RATE + n, i), lanes.load(motion, RATE + n + 1, i)
     )
 
 
 @inner
 def two_terms(n, i, slides, motion):
     """Terms n and n + 1 of the functions that are watched, at the end of the window."""
-    whole = motion.whole
-    return whole[n] * watched(n, i, slides, motion) + whole[n + 1] * watched(
-        n + 1, i, slides, motion
-    )
+    first = motion[WHOLE, n] * watched(n, i, slides, motion)
+    return first + motion[WHOLE, n + 1] * watched(n + 1, i, slides, motion)
 
 
 @inner
@@ -60,17 +66,17 @@ def guess(end, motion):
     share = np.inf
     block = 0
     for i in range(1, end + 1, WIDTH):
-        slides = lanes.load(motion.slides, i)
+        slides = lanes.load(motion, SLIDES, i)
         nearer = lanes.choose(
-            lanes.load(row(1, motion), i), lanes.spread(-1.0), lanes.spread(1.0)
+            lanes.load(motion, RATE + 1, i), lanes.spread(-1.0), lanes.spread(1.0)
         )
-        sign = lanes.choose(slides, lanes.load(motion.sign, i), nearer)
-        g = sign * watched(0, i, slides, motion) + lanes.load(motion.hold, i)
-        slope = sign * watched(1, i, slides, motion) * motion.whole[1]
+        sign = lanes.choose(slides, lanes.load(motion, SIGN, i), nearer)
+        g = sign * watched(0, i, slides, motion) + lanes.load(motion, HOLD, i)
+        slope = sign * watched(1, i, slides, motion) * motion[WHOLE, 1]
         bend = two_terms(2, i, slides, motion) + two_terms(4, i, slides, motion)
         bend = sign * (bend + two_terms(6, i, slides, motion))
-        lanes.store(motion.sign, i, sign)
-        below = lanes.only(lanes.load(motion.felt, i), zero - (g + (slope + bend)))
+        lanes.store(motion, SIGN, i, sign)
+        below = lanes.only(lanes.load(motion, FELT, i), zero - (g + (slope + bend)))
         if lanes.where_negative(zero - below) == 0:
             continue
         root = lanes.square_root(lanes.larger(slope * slope - 4.0 * (g * bend), zero))
@@ -94,12 +100,11 @@ def guess(end, motion):
 @inner
 def find_root(s, i, order, motion, progress):
     """The root near s of the function watched of block i; infinity if no root is found.
-    `weight` is used."""
-    weight = motion.weight
+    WEIGHT is used."""
     for k in range(STEPS):
         terms = PROOF_ORDER if k < EARLY_STEPS else order
-        powers(s, terms, weight)
-        g, slope, bend = function_at(i, terms, weight, motion)
+        powers(s, terms, WEIGHT, motion)
+        g, slope, bend = function_at(i, terms, motion)
         step = 2.0 * g * slope / (2.0 * slope * slope - g * bend)
         s -= step
         progress.root_steps += 1
@@ -109,32 +114,34 @@ def find_root(s, i, order, motion, progress):
 
 
 @inner
-def function_at(i, order, weight, motion):
-    """The function watched of block i and two derivatives, at the time of `weight`, up
+def function_at(i, order, motion):
+    """The function watched of block i and two derivatives, at the time of WEIGHT, up
     to an even order."""
-    sign = motion.sign[i]
-    lowest = 0 if motion.slides[i] > 0.0 else 1
-    start = row(lowest, motion)[i]
-    c1 = row(lowest + 1, motion)[i]
-    c2 = row(lowest + 2, motion)[i]
+    sign = motion[SIGN, i]
+    lowest = 0 if motion[SLIDES, i] > 0.0 else 1
+    terms = motion[RATE + lowest :, i]
+    weights = motion[WEIGHT]
+    start = terms[0]
+    c1 = terms[1]
+    c2 = terms[2]
     g = g_odd = slope = slope_odd = bend = bend_odd = 0.0
     # Even and odd terms apart: two short chains of sums instead of a long one.
     for n in range(order, 2, -2):
-        even = row(lowest + n, motion)[i]
-        odd = row(lowest + n - 1, motion)[i]
-        w = weight[n]
-        w1 = weight[n - 1]
-        w2 = weight[n - 2]
+        even = terms[n]
+        odd = terms[n - 1]
+        w = weights[n]
+        w1 = weights[n - 1]
+        w2 = weights[n - 2]
         g += w * even
         g_odd += w1 * odd
         slope += w1 * even
         slope_odd += w2 * odd
         bend += w2 * even
-        bend_odd += weight[n - 3] * odd
-    g += g_odd + weight[2] * c2 + weight[1] * c1
-    slope += slope_odd + weight[1] * c2
+        bend_odd += weights[n - 3] * odd
+    g += g_odd + weights[2] * c2 + weights[1] * c1
+    slope += slope_odd + weights[1] * c2
     return (
-        (motion.hold[i] + sign * start) + sign * g,
+        (motion[HOLD, i] + sign * start) + sign * g,
         sign * (c1 + slope),
         sign * (c2 + (bend + bend_odd)),
     )

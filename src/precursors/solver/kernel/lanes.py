@@ -7,9 +7,10 @@ of this type becomes one AVX register, or two of SSE or NEON.
 
 import functools
 import operator
+from typing import Any
 
 from llvmlite import ir
-from numba.core import types
+from numba import types
 from numba.extending import (
     intrinsic,
     lower_builtin,
@@ -19,7 +20,6 @@ from numba.extending import (
 )
 
 from precursors.solver.kernel.layout import WIDTH
-from precursors.solver.kernel.pointers import NUMBERS
 
 DOUBLE = ir.DoubleType()
 BITS = ir.IntType(WIDTH)
@@ -57,11 +57,6 @@ def _operation(build, result, *kinds):
         return result(*kinds), generate
 
     return intrinsic(typed)
-
-
-def _group(builder, start, index):
-    """Pointer to four elements from one on."""
-    return builder.bitcast(builder.gep(start, [index]), VECTOR.as_pointer())
 
 
 def _pack(builder, *values):
@@ -108,20 +103,35 @@ def _where_negative(builder, a):
     return builder.zext(builder.bitcast(lanes, BITS), ir.IntType(64))
 
 
-# values[i : i + 4], and values[i : i + 4] = a.
-load = _operation(
-    lambda b, values, i: b.load(_group(b, values, i), align=8),
-    four,
-    NUMBERS,
-    types.intp,
-)
-store = _operation(
-    lambda b, values, i, a: b.store(a, _group(b, values, i), align=8),
-    types.void,
-    NUMBERS,
-    types.intp,
-    four,
-)
+def _group(context, builder, kind, arguments):
+    """Pointer to four elements of a row from one on."""
+    array = context.make_array(kind)(context, builder, arguments[0])
+    stride = builder.extract_value(array.shape, 1)
+    place = builder.add(builder.mul(arguments[1], stride), arguments[2])
+    start = builder.gep(array.data, [place])
+    return builder.bitcast(start, VECTOR.as_pointer())
+
+
+def _load(typingctx, values, row, i):
+    def generate(context, builder, signature, arguments):
+        return builder.load(_group(context, builder, values, arguments), align=8)
+
+    return four(values, types.intp, types.intp), generate
+
+
+def _store(typingctx, values, row, i, a):
+    def generate(context, builder, signature, arguments):
+        builder.store(
+            arguments[3], _group(context, builder, values, arguments), align=8
+        )
+        return context.get_dummy_value()
+
+    return types.void(values, types.intp, types.intp, four), generate
+
+
+# values[row, i : i + 4], and values[row, i : i + 4] = a.
+load: Any = intrinsic(_load)
+store: Any = intrinsic(_store)
 # One number in all lanes, or one in each.
 spread = _operation(lambda b, value: _pack(b, *WIDTH * [value]), four, types.float64)
 pack = _operation(

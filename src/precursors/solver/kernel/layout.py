@@ -35,7 +35,7 @@ ORDERS = np.array([order_for(min((k + 1) / PARTS, WINDOW)) for k in range(65)])
 ROWS = ORDER + 2
 # Room for the terms of a series, in whole groups.
 TERMS = ROWS + 2 * WIDTH
-INVERSE_FACTORIAL = np.array([1.0 / math.factorial(n) for n in range(TERMS)])
+INVERSE_FACTORIAL = np.array([[1.0 / math.factorial(n) for n in range(TERMS)]])
 # A value below so many roundings of the forces it was computed from counts as zero.
 # Transitions may follow one another for ever while time stands still, as roundings
 # decide: the limit is doubled until they do not.

@@ -29,7 +29,19 @@ import math
 import numpy as np
 
 from precursors.solver.kernel import lanes
-from precursors.solver.kernel.arrays import row
+from precursors.solver.kernel.arrays import (
+    FELT,
+    HOLD,
+    MODE,
+    NET_FORCE,
+    RATE,
+    SERIES,
+    SIGN,
+    SLIDES,
+    UNDECIDED,
+    VELOCITY,
+    WEIGHT,
+)
 from precursors.solver.kernel.decorators import inner, seldom
 from precursors.solver.kernel.guess import watched
 from precursors.solver.kernel.layout import WIDTH, WINDOW
@@ -77,29 +89,30 @@ def enclose(a0, a1, a2, a3, a4, a5, at_end, rest):
 
 @inner
 def prove(end, candidate, motion):
-    """Mark the blocks in `undecided` that may change their mode before the time
+    """Mark the blocks in UNDECIDED that may change their mode before the time
     reached; zero if there are none.
 
     The state has been brought there by `move`. Of block `candidate` it is known that
     its function vanishes there. A block that sticks must not reach its other limit
     either, where g = 2 mu_s w.
     """
-    weight = motion.weight
+    weight = motion[WEIGHT]
     found = 0
     # No later row of a velocity is larger than rows 7 and 8, nor the tenth of a net
     # force.
     largest = lanes.spread(0.0)
     for i in range(1, end + 1, WIDTH):
-        largest = lanes.larger(largest, lanes.magnitude(lanes.load(row(7, motion), i)))
-        largest = lanes.larger(largest, lanes.magnitude(lanes.load(row(8, motion), i)))
+        for n in (7, 8):
+            rows = lanes.magnitude(lanes.load(motion, RATE + n, i))
+            largest = lanes.larger(largest, rows)
     tail = TAIL * weight[9] * lanes.largest(largest)
     for i in range(1, end + 1, WIDTH):
-        slides = lanes.load(motion.slides, i)
-        sign = lanes.load(motion.sign, i)
-        hold = lanes.load(motion.hold, i)
-        felt = lanes.load(motion.felt, i)
+        slides = lanes.load(motion, SLIDES, i)
+        sign = lanes.load(motion, SIGN, i)
+        hold = lanes.load(motion, HOLD, i)
+        felt = lanes.load(motion, FELT, i)
         now = lanes.choose(
-            slides, lanes.load(motion.velocity, i), lanes.load(motion.net_force, i)
+            slides, lanes.load(motion, VELOCITY, i), lanes.load(motion, NET_FORCE, i)
         )
         at_end = sign * now + hold
         rest = lanes.magnitude(watched(7, i, slides, motion)) * weight[7]
@@ -119,27 +132,27 @@ def prove(end, candidate, motion):
         if i <= candidate < i + WIDTH:
             undecided &= ~(1 << (candidate - i))
         undecided |= lanes.where_negative(low * felt)
-        motion.undecided[i] = undecided
+        motion[UNDECIDED, i] = undecided
         found |= undecided
     return found
 
 
 @seldom
-def search(order, end, roundings, chain, motion, progress):
-    """First root of the functions of the blocks in `undecided`: (share of the time
+def search(order, end, roundings, motion, progress):
+    """First root of the functions of the blocks in UNDECIDED: (share of the time
     reached, block, side)."""
     share = np.inf
     block = 0
     side = 1
     for group in range(1, end + 1, WIDTH):
-        undecided = motion.undecided[group]
+        undecided = int(motion[UNDECIDED, group])
         for i in range(group, group + WIDTH):
             if (undecided >> (i - group)) & 1:
-                zero = zero_below(i, roundings, chain, motion)
-                slides = motion.mode[i] != 0
+                zero = zero_below(i, roundings, motion)
+                slides = motion[MODE, i] != 0
                 for way in range(1, 0 if slides else -2, -2):
-                    fill_series(i, motion.sign[i] if slides else -way, order, motion)
-                    s = first_root(order + 1, zero, motion.series, progress)
+                    fill_series(i, motion[SIGN, i] if slides else -way, order, motion)
+                    s = first_root(order + 1, zero, motion[SERIES], progress)
                     progress.searches += 1
                     if s < share:
                         share = s
@@ -151,9 +164,7 @@ def search(order, end, roundings, chain, motion, progress):
 @inner
 def fill_series(i, sign, order, motion):
     """Series of the function watched of block i, with the time reached as unit."""
-    weight = motion.weight
-    series = motion.series
-    lowest = 0 if motion.slides[i] > 0.0 else 1
-    series[0] = motion.hold[i] + sign * row(lowest, motion)[i]
+    lowest = 0 if motion[SLIDES, i] > 0.0 else 1
+    motion[SERIES, 0] = motion[HOLD, i] + sign * motion[RATE + lowest, i]
     for n in range(1, order + 1):
-        series[n] = sign * row(lowest + n, motion)[i] * weight[n]
+        motion[SERIES, n] = sign * motion[RATE + lowest + n, i] * motion[WEIGHT, n]

@@ -5,7 +5,14 @@ import math
 
 import numpy as np
 
-from precursors.solver.kernel.arrays import row
+from precursors.solver.kernel.arrays import (
+    COUPLING,
+    RATE,
+    SLIDES,
+    SPRING_FORCE,
+    STRENGTH,
+    WHOLE,
+)
 from precursors.solver.kernel.decorators import inner, seldom
 from precursors.solver.kernel.layout import PROOF_ORDER
 
@@ -15,19 +22,17 @@ RESTART = 12
 
 
 @inner
-def zero_below(i, roundings, chain, motion):
+def zero_below(i, roundings, motion):
     """Size below which a force on block i, or what it does to its velocity in the
     window, counts as zero.
 
     It follows from the forces, and from what the motion of the neighbours adds to them
     within the window.
     """
-    coupling = chain.coupling
-    force = motion.spring_force
-    still = abs(force[i]) + abs(force[i + 1]) + chain.strength[i]
-    moving = coupling[i] * fastest(i - 1, motion) + coupling[i + 1] * fastest(
-        i + 1, motion
-    )
+    springs = abs(motion[SPRING_FORCE, i]) + abs(motion[SPRING_FORCE, i + 1])
+    still = springs + motion[STRENGTH, i]
+    behind = motion[COUPLING, i] * fastest(i - 1, motion)
+    moving = behind + motion[COUPLING, i + 1] * fastest(i + 1, motion)
     return roundings * (2.0 * still + moving + fastest(i, motion))
 
 
@@ -35,9 +40,9 @@ def zero_below(i, roundings, chain, motion):
 def fastest(i, motion):
     """Size of the first terms of block i's velocity in the window."""
     total = 0.0
-    if motion.slides[i] > 0.0:
+    if motion[SLIDES, i] > 0.0:
         for n in range(PROOF_ORDER + 1):
-            total += abs(row(n, motion)[i]) * motion.whole[n]
+            total += abs(motion[RATE + n, i]) * motion[WHOLE, n]
     return total
 
 

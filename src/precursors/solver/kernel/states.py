@@ -4,9 +4,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from precursors.model.chain import FREE, Chain, FloatArray
-from precursors.solver.kernel.arrays import memory_for
+from precursors.solver.kernel.arrays import (
+    COUPLING,
+    FORCE_REST,
+    MODE,
+    SPRING_FORCE,
+    VELOCITY,
+    memory_for,
+)
 from precursors.solver.kernel.decorators import inner, outer, unfused
-from precursors.solver.kernel.events import last_column
+from precursors.solver.kernel.events import last_column, run_batch
 from precursors.solver.kernel.friction import (
     farthest_sliding,
     is_at_rest,
@@ -21,7 +28,7 @@ from precursors.solver.kernel.series import (
     order_at,
     take_net_force,
 )
-from precursors.solver.kernel.units import lay_out, parameters
+from precursors.solver.kernel.units import parameters, set_up
 from precursors.solver.record import States
 
 # Speed [m/s] of a block at the very instant of its release, which tells its direction:
@@ -72,14 +79,14 @@ def go_through(
     modes,
     states,
     nearest,
-    memory,
+    motion,
 ):
     """Fill `found` with spring forces and velocities, from stored states and
     transitions."""
-    chain, motion = lay_out(parameters, weights, memory)
+    chain = set_up(parameters, weights, motion)
     # Velocities and spring forces in two doubles stand side by side: what a motion
     # changes for good.
-    state = memory[3 * motion.wide : 6 * motion.wide]
+    state = motion[VELOCITY : FORCE_REST + 1]
     before = np.empty_like(state)
     done = 0
     offset = states.offset[0]
@@ -101,42 +108,54 @@ def go_through(
         while since - offset > WINDOW * chain.tau and is_moving:
             propagate(WINDOW, chain, motion)
             offset += WINDOW * chain.tau
-        before[:] = state
+        copy(state, before)
         propagate(max(since - offset, 0.0) / chain.tau, chain, motion)
         for i in range(found.shape[2]):
-            found[0, q, i] = motion.spring_force[i + 1]
-            found[1, q, i] = motion.velocity[i + 1] * chain.speed
-            mode = motion.mode[i + 1]
+            found[0, q, i] = motion[SPRING_FORCE, i + 1]
+            found[1, q, i] = motion[VELOCITY, i + 1] * chain.speed
+            mode = motion[MODE, i + 1]
             if found[1, q, i] == 0.0 and mode != 0 and mode != FREE:
                 found[1, q, i] = mode * JUST_RELEASED
-        state[:] = before
+        copy(before, state)
+
+
+@inner
+def copy(rows, into):
+    """Copy rows; `into[:] = rows` takes a second to compile."""
+    for n in range(rows.shape[0]):
+        for i in range(rows.shape[1]):
+            into[n, i] = rows[n, i]
+
+
+def is_compiled_now() -> bool:
+    """Whether this process compiled the event loop, and not yet what looks into runs:
+    whoever waits for the one shall not wait for the other later."""
+    return bool(run_batch.stats.cache_misses) and not go_through.signatures
 
 
 @inner
 def take_state(row, states, chain, motion):
     """Take a stored state."""
     for i in range(1, chain.n_blocks + 1):
-        motion.velocity[i] = states.velocity[row, i - 1] / chain.speed
-        motion.spring_force[i] = states.force[row, i - 1]
-        motion.force_rest[i] = 0.0
-        motion.mode[i] = states.mode[row, i - 1]
-        take_mode(i, chain, motion)
+        motion[VELOCITY, i] = states.velocity[row, i - 1] / chain.speed
+        motion[SPRING_FORCE, i] = states.force[row, i - 1]
+        motion[FORCE_REST, i] = 0.0
+        motion[MODE, i] = states.mode[row, i - 1]
+        take_mode(i, motion)
 
 
 @unfused
 def propagate(span, chain, motion):
     """Advance a state by `span`, within which no mode changes."""
-    force = motion.spring_force
     if is_at_rest(chain, motion):
-        force[1] += chain.coupling[1] * chain.drive_velocity * span
+        motion[SPRING_FORCE, 1] += motion[COUPLING, 1] * chain.drive_velocity * span
         return
-    end = last_column(chain, farthest_sliding(chain.n_blocks, motion.mode))
-    first_row = 2
+    end = last_column(chain, farthest_sliding(chain.n_blocks, motion))
     for i in range(1, end + 1):
         take_net_force(i, motion)
     while span > 0.0:
         s = min(span, WINDOW)
         begin(end, motion)
-        expand(first_row, order_at(s), end, chain, motion)
+        expand(2, order_at(s), end, motion)
         move(s, end, chain, motion)
         span -= s
