@@ -29,7 +29,7 @@ digest = partial(digest_code, ROOT)
 
 files = [] if workflow.modifier.skip_configfile else ["config.yaml", *workflow.overwrite_configfiles]
 try:
-    # Before Snakemake, which would run code in them, or take hours for nested aliases.
+    # Before Snakemake, which does not say where a file is wrong.
     contents = {path: read_file(path) for path in filter(os.path.exists, files)}
 except ValueError as error:
     raise WorkflowError(str(error)) from None

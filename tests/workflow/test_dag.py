@@ -1,8 +1,11 @@
 """What is run: every job once, and after an edit only what the edit touches."""
 
+import re
 from collections import Counter
+from itertools import product
 
 import pytest
+from places import ROOT
 
 PAPERS = {"simulate_scene fig10", "simulate_scene fig11", "simulate_scene fig12"}
 # Rules that `all` leaves out, and write_provenance, which conftest leaves out of all
@@ -25,6 +28,26 @@ def test_a_dry_run_lists_every_job_of_the_paper_and_writes_nothing(untouched):
     assert outcome.jobs >= PAPERS
     assert not ON_DEMAND & outcome.jobs
     assert workspace.results() == {}
+
+
+def test_the_arrows_in_readme_are_those_of_the_rule_graph(untouched):
+    workspace, _ = untouched
+    graph = workspace.run("--rulegraph", "mermaid-js", "all").text
+    rules = dict(re.findall(r"(id\d+)\[(\w+)\]", graph))
+    real = {
+        (rules[start], rules[end])
+        for start, end in re.findall(r"(id\d+) --> (id\d+)", graph)
+    }
+    (shown,) = re.findall(
+        r"```mermaid\n(.*?)```", (ROOT / "README.md").read_text(), re.S
+    )
+    arrows = {
+        arrow
+        for starts, ends in re.findall(r" +(.+) --> (.+)", shown)
+        for arrow in product(starts.split(" & "), ends.split(" & "))
+    }
+    assert len(arrows) > 10
+    assert arrows - real == set()
 
 
 def test_words_format_and_touch_run_nothing_again(finished):

@@ -65,7 +65,7 @@ rule fig13:
 
 
 rule mu_sapp:
-    """Compare mu_sapp and other numbers of the scenes with the paper's, under several readings."""
+    """Compare mu_sapp, which `summary_of` in precursors.analysis.summary makes of a slip table, with the paper's."""
     input:
         runs=RUNS,
         slips=collect("results/tables/{scene}_slips.csv", scene=SCENES),
@@ -106,7 +106,7 @@ rule draw_slips:
             "results/figures/push.svg",
             caption="../report/push.rst",
             category="Reproduction",
-            labels={"figure": "push: why a slip stops where it does"},
+            labels={"figure": "push: what a slip adds and releases, and how far it can reach"},
         ),
         more=collect("results/figures/push.{kind}", kind=MORE_FORMATS),
     log:
