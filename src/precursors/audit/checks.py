@@ -12,7 +12,7 @@ from precursors.audit.motion import normal_modes, rows_and_modes
 from precursors.audit.report import Audit
 from precursors.model.chain import FREE, linear_weights
 from precursors.model.checks import positive
-from precursors.solver.record import arrays_of, out_of_range, wrong_shape
+from precursors.solver.record import arrays_of, find_range_error, find_shape_error
 from precursors.solver.run import Run
 from precursors.support.waiting import bar
 
@@ -49,7 +49,7 @@ def audit_run(run: Run, roundings: float) -> Audit:
 def _malformed(run: Run) -> str:
     """Say why the arrays of a run cannot be audited at all, or nothing."""
     arrays = arrays_of(run)
-    if reason := wrong_shape(arrays) or out_of_range(arrays):
+    if reason := find_shape_error(arrays) or find_range_error(arrays):
         return reason
     chain = run.chain
     if math.isnan(chain.theta):
