@@ -29,7 +29,7 @@ digest = partial(digest_code, ROOT)
 
 files = [] if workflow.modifier.skip_configfile else ["config.yaml", *workflow.overwrite_configfiles]
 try:
-    # Before Snakemake, which would run code in them, or take hours for nested aliases.
+    # Before Snakemake, which does not say where a file is wrong.
     contents = {path: read_file(path) for path in filter(os.path.exists, files)}
 except ValueError as error:
     raise WorkflowError(str(error)) from None
@@ -55,7 +55,7 @@ SLIDERS = {scene: scene_slider(config, scene) for scene in FIG13}
 IS_PAPERS = is_papers(config, PAPERS_SCENES)
 RUNS = collect("results/runs/{scene}.h5", scene=FIG13)
 SLIPS = collect("results/tables/{scene}_slips.csv", scene=FIG13)
-# What `all` makes: each file of rules adds its own.
+# What `all` makes: each file of rules adds its own, so that `all` and write_provenance must stand below their includes.
 RESULTS = []
 # Jobs into which each study of many runs is divided.
 CHUNKS = [f"{i}of{config['chunks']}" for i in range(1, config["chunks"] + 1)]

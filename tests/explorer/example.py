@@ -12,6 +12,7 @@ PICTURE = ROOT / "docs/explorer.png"
 THETAS = {"fig10": 0.0, "fig11": -5 / 6, "fig12": 5 / 6}
 TOLERANCE = 1e-9  # s, of the times of a run that is called predictable
 LAPTOP = (1280, 800)  # px
+MARGIN = 8  # px, above the picture
 END = 12  # bytes of the last chunk of a PNG
 SETTLED = (
     "run && !state.playing && request.isShown && !request.next && run.isFinal"
@@ -40,6 +41,7 @@ def picture() -> bytes:
         middle = "0.6 * (event().end - event().onset)"
         page.evaluate(f"state.time = event().onset + {middle}, redraw()")
         page.wait_for(f"run.motions.has(state.event) && {SETTLED}")
+        page.evaluate("document.querySelector('header').style.visibility = 'hidden'")
         page.evaluate("redraw()")
         page.settle()
         place = "element('{}').getBoundingClientRect().{}"
@@ -47,7 +49,8 @@ def picture() -> bytes:
             page.evaluate(place.format(*side))
             for side in (("row", "top"), ("row", "right"), ("slips", "bottom"))
         )
-        png = page.picture(x=0, y=top, width=right + 8, height=bottom - top, scale=1)
+        height = bottom - top + MARGIN
+        png = page.picture(x=0, y=top - MARGIN, width=right + 8, height=height, scale=1)
     chunk = b"tEXtSource\0" + drawn_from().encode()
     size, check = (n.to_bytes(4) for n in (len(chunk) - 4, zlib.crc32(chunk)))
     return png[:-END] + size + chunk + check + png[-END:]

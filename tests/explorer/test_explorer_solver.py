@@ -7,7 +7,7 @@ import pytest
 from explorer.example import SOURCE, THETAS
 from settings import CONFIG
 
-from maegawa2010.explorer.page import proved_slider
+from maegawa2010.explorer.data import proved_slider
 from maegawa2010.scenes import scene_slider
 from precursors import Chain, find_slips, simulate
 from precursors.model.chain import SLIDER

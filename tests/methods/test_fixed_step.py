@@ -9,7 +9,7 @@ from maegawa2010.methods.march import march
 from maegawa2010.methods.runge_kutta import run_rk4
 from maegawa2010.studies.failures.stability import highest_frequency
 from precursors import Chain, Run, TransitionLimitError, simulate
-from precursors.analysis.events import transitions_right
+from precursors.analysis.agreement import transitions_right
 
 # Orders with transitions, and the two steps between which they are measured [s].
 ORDERS = {

@@ -1,11 +1,35 @@
-"""The table of definitions tells which readings give the paper's numbers."""
+"""What a reading of the paper's words makes of a slip table, and which readings give the
+paper's numbers."""
 
 import pandas as pd
 import pytest
 
-from maegawa2010.paper.definitions import OF_SCENES, definitions_table
+from maegawa2010.paper.definitions import OF_SCENES, Reading, definitions_table
 from precursors import Chain, simulate
+from precursors.analysis.summary import summary_of
 
+# One quotient of doubles.
+ROUNDING = 1e-15
+# Front, blocks that slid, most at once, load before and after, of five events of a
+# chain of three blocks.
+EVENTS = pd.DataFrame(
+    [
+        (2, 2, 1, 9.0, 8.0),
+        (1, 1, 1, 10.0, 9.5),
+        (2, 2, 2, 11.0, 8.0),
+        (3, 3, 2, 12.0, 10.0),
+        (3, 3, 3, 11.0, 5.0),
+    ],
+    columns=["front", "n_slid", "n_simultaneous", "load_before_N", "load_after_N"],
+)
+EVENTS = EVENTS.assign(
+    onset_s=EVENTS.index,
+    end_s=EVENTS.index,
+    largest_load_N=EVENTS["load_before_N"].cummax(),
+    is_global=EVENTS["n_simultaneous"] == 3,
+    n_blocks=3,
+    normal_load_N=20.0,
+)
 SLIDER = {"n_blocks": 10, "mu_s": 0.70, "mu_k": 0.45, "normal_load": 400.0}
 PAPER = [{"events_counted": counted, "mu_sapp": 0.49} for counted in (6, 9, 14)]
 
@@ -65,3 +89,27 @@ def test_a_reading_without_a_global_slip_has_empty_numbers():
     few = tabulate(0.4, [], [{}, {}, {}])
     assert few["mu_sapp"].isna().all()
     assert not few["numbers_within_a_digit"].any()
+
+
+@pytest.mark.parametrize(
+    ("reading", "events", "counted", "mu_sapp"),
+    [
+        (Reading(), 5, 4, 0.6),
+        (Reading(global_slip="each"), 4, 3, 0.6),
+        (Reading(global_slip=2.5), 3, 2, 0.55),
+        (Reading(short="not longer"), 5, 2, 0.6),
+        (Reading(short="shorter than the last"), 5, 4, 0.6),
+        (
+            Reading(global_slip="each", front="n_simultaneous", short="not longer"),
+            4,
+            2,
+            0.6,
+        ),
+    ],
+)
+def test_a_reading_decides_which_event_is_global_and_which_are_short(
+    reading, events, counted, mu_sapp
+):
+    found = summary_of(reading.read(EVENTS))
+    assert (found.events_to_global_slip, found.events_counted) == (events, counted)
+    assert found.mu_sapp == pytest.approx(mu_sapp, rel=ROUNDING)

@@ -1,6 +1,8 @@
 """The rows of a study are those of its runs one by one, however it is cut into
 chunks."""
 
+import math
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -13,7 +15,7 @@ from maegawa2010.studies.members import (
     gather,
 )
 from maegawa2010.studies.noise.tables import noise_study
-from maegawa2010.studies.runs import run_members
+from maegawa2010.studies.runs import run_members, speedup
 from precursors import simulate
 from precursors.analysis.summary import summarise
 from precursors.support.files import read_table, write_table
@@ -126,3 +128,21 @@ def test_a_larger_ensemble_contains_the_smaller(noise):
         assert [chain_of(member, 1) for member in small] == [
             chain_of(member, 1) for member in large
         ]
+
+
+@pytest.mark.parametrize(
+    ("fronts", "expected"),
+    [
+        ([1, 4, 7, 9, 10], (3 / 20) / (6 / 20)),
+        ([1, 4, 9, 7, 10], (3 / 10) / (6 / 30)),  # a rule that counts shorter ones
+        ([1, 4, 7, 9, 9], math.nan),  # the whole length is not reached
+        ([7, 7, 7, 10, 10], math.nan),  # no rise up to the kink
+    ],
+)
+def test_growth_beyond_the_kink_is_that_of_the_events_counted(fronts, expected):
+    loads = np.arange(10.0, 60.0, 10.0)
+    slips = pd.DataFrame({"front": fronts, "load_before_N": loads, "n_blocks": 10})
+    slips = slips.assign(counted=True, is_global=True)
+    assert speedup(slips.to_records(index=False)) == pytest.approx(
+        expected, nan_ok=True
+    )

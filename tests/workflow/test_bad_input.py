@@ -13,6 +13,11 @@ from precursors import Run
     [
         ("mu_k: 0.45", "mu_k: 0.8", "configuration: chain: "),
         (
+            "    title: uniform",
+            "    titel: uniform",
+            "config.yaml: scenes.fig10 has no key 'titel': did you mean 'title'?",
+        ),
+        (
             "figure: {}",
             "figure: {width_mm: 17}",
             "the width must be between 40 and 400 mm, but is 17",

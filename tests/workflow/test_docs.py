@@ -10,10 +10,13 @@ import sys
 from textwrap import dedent
 
 import pytest
+import write_paper
 from colours import SIGHTS, alike
-from places import ROOT
+from pdf_text import pages_of
+from places import GOLDEN, RESULTS, ROOT, made
 from workflow_copy import copy_workflow
 
+from maegawa2010.paper.shown import results_shown
 from precursors import cli
 
 DOCS = ROOT / "docs"
@@ -34,7 +37,15 @@ def blocks(section):
         yield language, named and named[1], code[named.end() :] if named else code
 
 
-SECTIONS = ("A scene", "A study", "A model", "A method", "Within another workflow")
+CLAIM = "A claim, and a number in the paper"
+SECTIONS = (
+    "A scene",
+    "A study",
+    "A model",
+    "A method",
+    CLAIM,
+    "Within another workflow",
+)
 
 
 @pytest.fixture(scope="module")
@@ -65,9 +76,9 @@ def command(section):
 
 
 def test_the_scene_and_the_study_shown_are_made(documented):
-    planned = documented.run("-n", "--forceall", *command("A scene"), "all")
-    wanted = {"simulate_scene steep", "draw_scene steep", "draw_durations"}
-    assert wanted <= planned.jobs
+    planned = documented.run("-n", *command("A scene"))
+    assert planned.jobs == {"simulate_scene steep", "draw_scene steep"}, planned.text
+    assert "draw_durations" in documented.would_run()
     (documented.path / "results/tables").mkdir(parents=True)
     slips = ROOT / "tests/golden/fig10_slips.csv"
     shutil.copy(slips, documented.path / "results/tables")
@@ -120,6 +131,34 @@ def test_the_test_shown_passes_model_and_method_give_what_is_shown_and_this_has_
     for sight in SIGHTS:
         assert alike({name: name for name in {color, *others.split()}}, sight) == []
     assert done.stderr == ""
+
+
+def test_the_claim_shown_is_judged_and_its_number_set_in_the_paper(
+    documented, tmp_path, monkeypatch
+):
+    texts = {language: code for language, name, code in blocks(CLAIM) if not name}
+    checked = subprocess.run(
+        [
+            sys.executable,
+            "workflow/scripts/check_claims.py",
+            RESULTS,
+            GOLDEN / "claims.csv",
+        ],
+        cwd=documented.path,
+        env=os.environ | {"PYTHONPATH": str(documented.path / "src")},
+        capture_output=True,
+        text=True,
+    )
+    assert (checked.returncode, checked.stderr) == (1, texts["text"])
+    source = documented.path / "paper/mine.typ"
+    source.write_text(f'#import "lib.typ": *\n{texts["typst"]}', encoding="utf-8")
+    monkeypatch.chdir(ROOT)
+    write_paper.main(source, results_shown(source), tmp_path / "mine.pdf")
+    (load,) = made("reproduction").query(
+        "scene == 'fig10' and quantity == 'global_slip_load_N'"
+    )["reproduced"]
+    (page,) = pages_of((tmp_path / "mine.pdf").read_bytes())
+    assert page.startswith(f"At {load:.1f} N")
 
 
 def test_the_workflow_shown_uses_this_one_as_a_module(documented):

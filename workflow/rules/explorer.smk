@@ -5,7 +5,6 @@ rule write_explorer:
             path for path in (PAPERS / "explorer").iterdir() if path.suffix in (".js", ".css", ".html")
         ),
         slips=SLIPS,
-        balance="results/tables/balance.csv",
         members="results/tables/digits_members.csv",
         shares="results/tables/digits.csv",
         # to 320 blocks, of the paper's slider

@@ -64,6 +64,7 @@ rule fig09:
 rule write_paper:
     """Set a document of paper/ with the numbers and figures of the results."""
     input:
+        # Read from the text of the document. What this missed Typst would not find, and the job would fail.
         shown=lambda wildcards: results_shown(PAPER_SOURCE / f"{wildcards.document}.typ"),
         main=PAPER_SOURCE / "{document}.typ",
         source=sorted(path for path in PAPER_SOURCE.rglob("*.*") if path.suffix != ".pdf"),

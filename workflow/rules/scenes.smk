@@ -65,7 +65,7 @@ rule fig13:
 
 
 rule mu_sapp:
-    """Compare mu_sapp and other numbers of the scenes with the paper's, under several readings."""
+    """Compare mu_sapp, which `summary_of` in precursors.analysis.summary makes of a slip table, with the paper's."""
     input:
         runs=RUNS,
         slips=collect("results/tables/{scene}_slips.csv", scene=SCENES),

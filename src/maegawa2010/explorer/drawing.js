@@ -6,8 +6,11 @@ const KINDS = ["partial", "global", "backward", "unsure"];
 const NAMES = ["precursor", "global slip", "backward slip", "not predictable"];
 const TILT_COLOURS = ["trailing", "uniform", "leading"];
 // Things in the picture of the row that a word of the text can single out; the others fade.
-const PARTS = ["blocks", "bars", "frames", "arrows", "drive", "line", "load", "left", "added"];
+const PARTS = ["blocks", "bars", "frames", "arrows", "drive", "line", "load", "stairs", "added",
+  "released"];
 const FADED = 0.16;
+const NARROW = 500; // px, below which a figure has shorter words
+const PALE = 0.6; // share of the colour of a slip in what it added or released
 const palette = {};
 
 // Colours come from the style sheet, which knows light and dark.
@@ -38,9 +41,10 @@ function clear(canvas) {
 }
 
 // Write a text; an underscore sets what follows as an index: F_X, μ_sapp.
-function write(context, text, x, y, align = "left") {
+function write(context, text, x, y, align = "left", weight = "") {
   const parts = String(text).split(/_(sapp|\w)/).map((part, i) => {
-    const font = (context.font = `${i % 2 ? 9 : 12}px system-ui, "DejaVu Sans", sans-serif`);
+    const size = i % 2 ? 9 : 12, family = 'system-ui, "DejaVu Sans", sans-serif';
+    const font = (context.font = `${weight} ${size}px ${family}`);
     return { part, font, lower: i % 2 ? 4 : 0, wide: context.measureText(part).width };
   });
   const width = parts.reduce((sum, { wide }) => sum + wide, 0);
@@ -128,6 +132,21 @@ function curve(context, x, y, time, value, start, end) {
   stroke(context, points);
 }
 
+// A load over time within the box of a figure, in grey from where it is not predictable.
+function drawLoad(context, { x, y, box }, { time, load, known }, start, end, colour) {
+  const until = Math.min(Math.max(known, start), end);
+  context.save();
+  context.beginPath();
+  context.rect(box.left, box.top - 6, box.right - box.left, box.bottom - box.top + 7);
+  context.clip();
+  context.lineWidth = 1.5;
+  for (const [name, from, to] of [[colour, start, until], ["unsure", until, end]]) {
+    context.strokeStyle = palette[name];
+    if (from < to) curve(context, x, y, time, load, from, to);
+  }
+  context.restore();
+}
+
 // Slides of the blocks, a line for each block. A backward slip has half of its height. Slips that
 // are not predictable are grey. Returns the kinds that are there.
 function slideBars(context, { x, box }, { n, events, arrays, known }, start, end) {
@@ -196,7 +215,7 @@ function drawRow(canvas, frame) {
   const [middle, half] = (frame.hasPush ? [0.42, 0.07] : [0.61, 0.24]).map((at) => at * height);
   const pushTop = 0.57 * height;
   const centres = shifts.map((shift, i) => left + (i + 0.5) * pitch + shift * scale);
-  const isNarrow = width < 500;
+  const isNarrow = width < NARROW;
   const show = (name, i) => {
     const isOut = lit === name && (name !== "blocks" || i === frame.front - 1);
     context.globalAlpha = isOut || !PARTS.includes(lit) ? 1 : FADED;
@@ -221,7 +240,7 @@ function drawRow(canvas, frame) {
   show("drive");
   const side = centres[0] - size / 2, plate = side - 0.8 * left * (1 - 0.65 * pushed);
   spring(context, plate, side, y, 5);
-  caption("drive", floor - 1.5 * size - 12);
+  caption("drive", Math.max(floor - 1.5 * size - 12, 22));
   context.fillStyle = context.strokeStyle = palette.ink;
   context.fillRect(plate - 5, floor - 1.5 * size - 2, 5, 1.5 * size + 2);
   write(context, "→", plate - 8, y, "right");
@@ -266,8 +285,9 @@ function drawRow(canvas, frame) {
     context.fillStyle = palette.ink;
     const friction = isNarrow ? "F_X − μ_k W" : "what kinetic friction leaves of F_X";
     write(context, `dashed: ${friction}`, width - 4, pushTop - 8, "right");
-    show("left");
-    caption("push in each spring", pushTop - 8);
+    show("stairs");
+    caption(isNarrow ? "push in springs" : "push in each spring: thin before the slip, thick now",
+      pushTop - 8);
   }
   show("ground");
   caption(`Movement is drawn ${magnified} times as large.`, height - 7);
@@ -275,35 +295,38 @@ function drawRow(canvas, frame) {
   write(context, ends, width - 4, height - 7, "right");
 }
 
-// The push that each spring carries: what the events before left in it, and what the last one
-// added. The dashed line is what sliding friction leaves of the load: F_X less mu_k times the
+// The push that each spring carries before a slip, and now: what the slip added and released. The
+// dashed line is what sliding friction leaves of the load at its onset: F_X less mu_k times the
 // normal load from the pushed end.
 function drawPush(context, frame, edges, centres, top, bottom, show) {
-  const { weights, forces, before, friction, highest, load } = frame;
+  const { weights, forces, before, friction, highest } = frame, load = before[0];
   const y = (force) => bottom - ((bottom - top) * force) / highest;
   const springs = [edges[0], ...centres, edges.at(-1)], line = [[edges[0], y(load)]];
   const step = (force, i) => [[springs[i], y(force)], [springs[i + 1], y(force)]];
-  const steps = (values) => [[edges[0], bottom], ...Array.from(values, step).flat()];
-  const kept = forces.map((force, i) => (i ? Math.min(before[i], force) : force));
-  show("added");
-  area(context, steps(forces), palette[frame.added]);
-  context.globalAlpha = 1;
-  area(context, steps(kept), palette.paper);
-  show("left");
-  area(context, steps(kept), palette.band);
-  show("ground");
+  const stairs = (values) => Array.from(values, step).flat();
+  const fills = { added: frame.added, released: "unsure" };
+  for (const [part, sign] of [["added", 1], ["released", -1]]) {
+    const far = forces.map((force, i) => (sign * (force - before[i]) > 0 ? force : before[i]));
+    show(part);
+    context.globalAlpha *= PALE;
+    area(context, [...stairs(far), ...stairs(before).reverse()], palette[fills[part]]);
+    context.globalAlpha /= PALE;
+  }
+  show("stairs");
   context.strokeStyle = palette.ink;
-  stroke(context, steps(forces));
+  for (const [values, width] of [[before, 0.8], [forces, 2]]) {
+    context.lineWidth = width;
+    stroke(context, [[edges[0], bottom], ...stairs(values)]);
+  }
   for (let i = 0, left = load; i < weights.length && left > 0; i++) {
     const share = Math.min(left / (friction * weights[i]), 1);
     left = share < 1 ? 0 : left - friction * weights[i];
     line.push([edges[i] + share * (edges[i + 1] - edges[i]), y(left)]);
   }
   show("line");
-  context.lineWidth = 2;
+  context.lineWidth = 1.5;
   dashed(context, line);
   show("load");
   context.fillStyle = palette.ink;
   write(context, "F_X", edges[0] - 6, y(load), "right");
-  context.lineWidth = 1.5;
 }

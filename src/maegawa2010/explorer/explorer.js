@@ -20,6 +20,7 @@ const isCalm = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
 const event = () => (state.event === null ? null : run?.events[state.event]);
 const firstGlobal = () => run.events.find(of("isGlobal"));
 const reel = () => [played().start, played().end].map(inFilm); // s of film, of what is played
+const isStudied = () => document.body.dataset.study !== "";
 const apparent = () => Math.max(0, ...run.counted.map(of("before"))) / run.slider.normal_load;
 
 // Ask for the run of what is set: while a slider is held only up to the first global slip.
@@ -27,8 +28,12 @@ function solve(isHeld = false) {
   for (const id of ["answers", "readout", "step"]) {
     element(id).setAttribute("aria-live", isHeld ? "off" : "polite");
   }
-  const id = (request?.id ?? 0) + 1, all = !isHeld;
-  const next = { id, slider: state.slider, duration: DURATION, tolerance: TOLERANCE, all };
+  const id = (request?.id ?? 0) + 1, { theta } = state.slider;
+  const isOfMeans = isStudied() && STEPS[state.step - 1].study === drawMeans;
+  const thetas = isOfMeans ? [theta, 0, -theta] : [theta];
+  const sliders = thetas.map((theta) => ({ ...state.slider, theta })), all = !isHeld || isOfMeans;
+  const next = { id, sliders, duration: DURATION, tolerance: TOLERANCE, all };
+  if (!isHeld) writeAddress();
   // A run is shown before the next one is begun: else a fast hand would see nothing.
   if (request && !request.isShown) request.next = next;
   else begin(next);
@@ -42,17 +47,20 @@ function begin(next) {
 function hear(data) {
   if (data.kind === "motion") {
     if (data.id === run.id) run.motions.set(data.event, data);
-    redraw("row", "stairs");
+    redraw("row", "load");
   } else if (data.id === request.id) {
+    const { next, moves } = request;
     show(data);
     request.isShown = true;
-    if (request.next) begin(request.next);
+    if (next) begin({ ...next, moves });
+    else if (moves) delete request.moves, move(moves);
   }
 }
 
 function show(next) {
-  const { motions, wanted } = next.id === run?.id ? run : { motions: new Map() };
-  run = { ...next, motions, wanted, counted: countedOf(next.events) };
+  const { id, isFinal, runs: loadings } = next, [own] = loadings;
+  const { motions, wanted, isPlaced } = id === run?.id ? run : { motions: new Map() };
+  run = { ...own, id, isFinal, loadings, motions, wanted, isPlaced, counted: countedOf(own.events) };
   run.highest = 1.02 * Math.max(1e-9, ...run.events.map(of("before")));
   run.film = filmOf(run);
   placeTime();
@@ -109,7 +117,10 @@ function placeTime() {
     if (picked) state.event = events.indexOf(picked);
     // A run that is shown before it is solved may lack the event as yet.
     else if (isFinal || firstGlobal()) state.event = clamp(state.event);
-    if (picked || state.event !== null) state.time = event()?.onset ?? 0;
+    if (event() && (picked || !run.isPlaced)) {
+      state.time = event().onset;
+      run.isPlaced = true;
+    }
   }
   state.time = Math.min(state.time, end);
 }
@@ -125,7 +136,7 @@ function askMotion(number) {
 }
 
 const DRAW = {
-  stairs: showStairs, slips: showSlips, lengths: showLengths, row: showRow, study: showStudy,
+  slips: showSlips, load: showLoad, lengths: showLengths, row: showRow, study: showStudy,
 };
 // Draw figures, by default all, in the next frame.
 function redraw(...names) {
@@ -176,7 +187,7 @@ function showParameters() {
     input.setAttribute("aria-valuetext", text);
     element(`${name}-value`).textContent = text;
   }
-  element("told").textContent = command();
+  element("command").textContent = command();
   setPressed("[data-view]", ({ view }) => view === state.view);
   setPressed("[data-theta]", ({ theta }) => Number(theta) === state.slider.theta);
   setPressed("[data-step]", ({ step }) => Number(step) === state.step);
@@ -197,10 +208,10 @@ function showStep() {
 
 function goToStep(number) {
   stop();
-  const { scene, blocks, pick, view = "first", plays = false, study } = STEPS[number - 1];
+  const { scene, pick, view = "first", plays = false, study, shows = "all" } = STEPS[number - 1];
   Object.assign(state, { step: number, pick, view, isToPlay: plays, repeats: plays });
-  Object.assign(document.body.dataset, { shows: number, study: Boolean(study), lit: "" });
-  useSlider({ ...scene.slider, n_blocks: blocks ?? scene.slider.n_blocks });
+  Object.assign(document.body.dataset, { shows, study: study?.name ?? "", lit: "" });
+  useSlider(scene.slider);
   showStep();
 }
 function useSlider(slider) {
@@ -211,13 +222,16 @@ function useSlider(slider) {
 // Choose an event and look at its onset; alone, it is played. A study gives way to the row.
 function choose(number) {
   stop();
-  document.body.dataset.study = false;
+  document.body.dataset.study = "";
   Object.assign(state, { event: number, pick: null, time: run.events[number].onset });
   if (state.view === "first" && state.time > view().end) state.view = "all";
   setView(state.view);
   if (state.view === "event" && !isCalm()) play();
+  writeAddress();
 }
+// A key that comes before the run of the step is there waits for it.
 function move(by) {
+  if (!request.isShown) return (request.moves = (request.moves ?? 0) + by);
   const next = clamp(state.event === null ? 0 : state.event + by);
   if (next !== null) choose(next);
 }
@@ -260,13 +274,14 @@ function stop() {
 }
 
 // The command that draws this run.
+const optionOf = (name) => name.replace("n_", "").replaceAll("_", "-");
 const command = () => `precursors plot${Object.entries(state.slider).map(([name, value]) =>
-  ` --${name.replace("n_", "").replace("_", "-")} ${value}`).join("")}`;
+  ` --${optionOf(name)} ${value}`).join("")}`;
 
 function build() {
-  setHtml("steps", STEPS.map(({ title }, i) => `<button type="button" data-step="${i + 1}"
-    aria-label="Step ${i + 1}: ${title}">${i + 1}</button>`).join("") +
-    `<button type="button" class="strong" id="onward" aria-label="next step">Next</button>`);
+  setHtml("steps", STEPS.map(({ name, title }, i) => `<button type="button" data-step="${i + 1}"
+    aria-label="${name}: ${title}">${name}</button>`).join("") +
+    `<button type="button" class="strong" id="onward" aria-label="Next step">Next</button>`);
   setHtml("step", STEPS.map((_, i) => `<div id="step-${i + 1}"></div>`).join(""));
   setHtml("sliders", Object.entries(SLIDERS).map(([id, { symbol, name, range, step, about }]) => {
     const [low, high] = step ? range : range.map(Math.log10);
@@ -317,7 +332,7 @@ function listen() {
     Object.assign(state, { pick: null, time: inRun(low + ((high - low) * target.value) / 1000) });
   });
   on("views", "click", ({ target: { dataset } }) => dataset.view && setView(dataset.view));
-  for (const id of ["stairs", "slips"]) {
+  for (const id of ["load", "slips"]) {
     on(id, "click", ({ offsetX }) => {
       const { start, end } = view(), { left, right } = chart.time.box;
       const perPixel = (end - start) / (right - left), time = start + (offsetX - left) * perPixel;
@@ -371,4 +386,5 @@ worker.onerror = ({ message = "this browser does not let the page start a worker
 readPalette();
 build();
 listen();
-goToStep(1);
+readAddress();
+addEventListener("hashchange", readAddress);

@@ -50,19 +50,20 @@ function frameAt(time) {
   // The camera stays where the last slip left the far end, goes along if that end leaves the
   // picture, and then eases back.
   const x = positions(time, forces), room = (0.07 * length) / magnified;
-  const kept = at < 0 ? 0 : positions(last.onset, last.force)[n - 1];
-  const camera = kept + Math.max(x[n - 1] - kept - room, 0);
+  const left = at < 0 ? 0 : positions(last.onset, last.force)[n - 1];
+  const camera = left + Math.max(x[n - 1] - left - room, 0);
   const rest = 0.3 * ((events[next]?.onset ?? run.end) - (last?.end ?? 0)) || 1;
   const ease = now === null && last ? Math.min((time - last.end) / rest, 1) : 0;
   const ground = camera + (x[n - 1] - camera) * ease * ease * (3 - 2 * ease);
   return {
     weights, strength: strength.slice(1), forces: forces.slice(1), modes: modes.slice(1, n + 1),
-    before: restForces(Math.max(at, 0)).slice(1), friction, load: forces[1], length, magnified,
+    before: (time <= last?.end ? last.force : forces).slice(1), friction, load: forces[1], length,
+    magnified,
     ground, shifts: x.map((value) => value - ground), now, at, front: event()?.front,
     highest: state.view === "event" && event() ? 1.1 * event().before : highest,
     pushed: Math.max(forces[1], 0) / highest, added: last ? kindOf(last) : "partial",
     kind: last?.isGlobal ? "global" : "partial", lit: document.body.dataset.lit,
-    hasPush: document.body.dataset.shows !== "1",
+    hasPush: document.body.dataset.shows !== "slip",
   };
 }
 
@@ -72,9 +73,11 @@ function showRow() {
   if (one && state.event !== now) (state.event = now), redraw("lengths");
   else if (!one && state.playing && at >= 0) state.event = at;
   const { start, end } = view(), share = (state.time - start) / (end - start);
-  const { left, right } = chart.time?.box ?? { left: 0, right: 0 };
-  element("cursor").style.transform = `translateX(${left + share * (right - left)}px)`;
-  element("cursor").hidden = share < 0 || share > 1;
+  const { left, right, top, bottom } = chart.time?.box ?? { left: 0, right: 0 };
+  const cursor = element("cursor");
+  cursor.style.transform = `translateX(${left + share * (right - left)}px)`;
+  cursor.style.height = `${bottom - top + 6}px`;
+  cursor.hidden = share < 0 || share > 1;
   const [low, high] = reel();
   element("scrubber").value = (1000 * (inFilm(state.time) - low)) / (high - low || 1);
   const since = state.time - one?.onset;
@@ -101,12 +104,35 @@ function showReadout() {
     ${quantity(one.end - one.onset, "s")},
     F_X: ${quantity(one.before, "N")} → ${quantity(one.after, "N")}.`;
   if (!setHtml("readout", text)) return;
-  setName("row", `A row of ${counts(n, "block")}, pushed from the left by a spring. ${text}`);
-  // Words of the steps that tell of the event.
-  const told = { blocks: `block ${one.front}`, added: one.isGlobal ? "red" : "blue" };
+  // Words of the steps that are about the event.
+  const words = { blocks: `block ${one.front}`, added: one.isGlobal ? "red" : "blue" };
   for (const word of document.querySelectorAll("[data-lights=blocks], [data-lights=added]")) {
-    word.textContent = told[word.dataset.lights];
+    word.textContent = words[word.dataset.lights];
   }
+  const reason = reasonOf(one);
+  document.querySelector("[data-tells]").innerHTML = marked(reason);
+  setName("row", `A row of ${counts(n, "block")}, pushed from the left by a spring. ${text}
+    This slip reaches block ${one.front}${reason}`);
+}
+
+// Why a slip goes no farther: friction has used up the push, or the next block stays below its limit.
+function reasonOf(one) {
+  const { n, weights, strength, slider } = run, { front } = one;
+  let left = one.before, spent = 0; // the load, and the blocks whose friction it bears
+  for (const load of weights) {
+    const share = Math.min(left / (slider.mu_k * load), 1);
+    spent += share;
+    left -= share * slider.mu_k * load;
+  }
+  if (front === n) {
+    return left > 0 ? `, the last, with ${digits(left)} N of the push to spare.`
+      : ", the last, which the line does not reach.";
+  }
+  if (front > spent + 1) return ", beyond the end of the line.";
+  if (front >= spent - 1) return ", where the line ends.";
+  const after = restForces(run.events.indexOf(one) + 1), net = after[front + 1] - after[front + 2];
+  return `, short of the end of the line: block ${front + 1} then bears
+    ${digits(Math.abs(net))} N and holds ${digits(strength[front + 1])} N.`;
 }
 
 // What is heard of a figure.
@@ -123,49 +149,27 @@ function timeAxis({ start, end }, width) {
   return [{ values: values.map((value) => zero + value * unit), names }, label];
 }
 
-// Up to the first global slip and in an event K x_1: the load without its trend, which climbs one
-// step in each slip. Of the whole run F_X, which swings about mu_k F_Z. Both are grey from where
-// they are not predictable.
-function showStairs() {
+// F_X, which swings about mu_k F_Z after the first global slip; grey where it is not predictable.
+function showLoad() {
   const window = view(), { start, end } = window, isRun = end - start > LONG;
-  const [context, width, height] = clear(element("stairs")), last = firstGlobal(), one = event();
-  const { drive_stiffness: K, drive_velocity: V, mu_k } = run.slider, isLoad = state.view === "all";
-  const drawn = (time, load) => load.map((force, i) => (isLoad ? force : K * V * time[i] - force));
+  const [context, width, height] = clear(element("load")), one = event();
   const motion = isRun ? null : run.motions.get(state.event);
-  const upTo = lowerBound(run.arrays.time, end) + 1;
-  const time = motion ? [start, ...motion.time, end] : run.arrays.time.subarray(0, upTo);
-  const load = motion ? [one.before, ...motion.forces.map(of(1)), one.after]
-    : run.arrays.load.subarray(0, upTo);
-  const values = drawn(time, load);
-  // Up to the global slip, whose step is the largest, the axis ends above the last precursor.
-  const isCut = state.view === "first" && last && last !== run.events[0];
-  const to = lowerBound(time, isCut ? last.onset : end) + 1;
-  const seen = values.slice(lowerBound(time, start), to);
+  const time = motion ? [start, ...motion.time, end] : run.arrays.time;
+  const load = motion ? [one.before, ...motion.forces.map(of(1)), one.after] : run.arrays.load;
+  const seen = load.slice(lowerBound(time, start), lowerBound(time, end) + 1);
   const high = seen.reduce((a, b) => Math.max(a, b), 1e-9);
   const low = isRun ? 0 : seen.reduce((a, b) => Math.min(a, b), high);
   const room = 0.1 * (high - low || 1), up = [isRun ? 0 : low - room, high + room];
-  const label = isLoad ? "Load F_X [N]" : "K x_1 = K V t − F_X, the load that slips released [N]";
-  const [along] = timeAxis(window, width);
+  const label = "Load F_X [N]", [along] = timeAxis(window, width);
   const { x, y, box } = axes(context, width, height, [start, end], up, [null, label], along);
-  if (isLoad) {
-    context.strokeStyle = context.fillStyle = palette.ink;
-    const level = y(mu_k * run.slider.normal_load);
+  const level = y(run.slider.mu_k * run.slider.normal_load);
+  context.strokeStyle = context.fillStyle = palette.ink;
+  if (level > box.top && level < box.bottom) {
     dashed(context, [[box.left, level], [box.right, level]]);
     write(context, "dashed: μ_k F_Z", box.right, 8, "right");
   }
-  context.save();
-  context.beginPath();
-  context.rect(box.left, box.top - 6, box.right - box.left, box.bottom - box.top + 7);
-  context.clip();
-  const known = Math.min(Math.max(run.known, start), end);
-  for (const [colour, from, to] of [["ink", start, known], ["unsure", known, end]]) {
-    context.strokeStyle = palette[colour];
-    context.lineWidth = 1.5;
-    if (from < to) curve(context, x, y, time, values, from, to);
-  }
-  context.restore();
-  chart.time = { x, box };
-  setName("stairs", `${label}, against time: ${counts(run.events.length, "event")}.
+  drawLoad(context, { x, y, box }, { time, load, known: run.known }, start, end, "ink");
+  setName("load", `${label}, against time: ${counts(run.events.length, "event")}.
     ${shown.answers}. ${shown.trust}`);
 }
 
@@ -179,10 +183,12 @@ function showSlips() {
   const values = Array.from({ length: Math.ceil(n / every) }, (_, i) => n - i * every);
   const up = { values, decimals: 0 }, labels = [label, "Block"];
   const figure = axes(context, width, height, [start, end], [0.5, n + 0.5], labels, along, up);
+  chart.time = figure;
   setHtml("slips-key", keyOf("box", slideBars(context, figure, run, start, end)));
   setName("slips", "Slips over time: one line for each block, coloured while it slides");
 }
 
+// Front lengths against the load, as in Fig. 13.
 function showLengths() {
   const [context, width, height] = clear(element("lengths")), { n, counted } = run;
   const { mu_k, normal_load } = run.slider, events = upToGlobal(run.events);
@@ -203,14 +209,16 @@ function showLengths() {
     return at;
   });
   const areShort = counted.length < events.length;
+  const points = counted.map((e) => `${counts(e.front, "block")} at ${quantity(e.before, "N")}`);
   setHtml("lengths-key", keyOf("dot", new Set(counted.map(kindOf))) +
     (areShort ? "<span><b>×</b> shorter than one before, not counted</span>" : ""));
-  const told = counted.map((e) => `${counts(e.front, "block")} at ${quantity(e.before, "N")}`);
-  setName("lengths", `Front length against load: ${told.join(", ").slice(0, 900)}`);
+  setName("lengths", `Front length against load: ${points.join(", ").slice(0, 900)}`);
 }
 
-// The study of the last two steps, and in it the reader's slider.
+// The study of a step.
 function showStudy() {
-  const { study } = STEPS[state.step - 1];
-  if (study) setName("study", study(...clear(element("study"))));
+  if (!isStudied()) return;
+  const { key, name } = STEPS[state.step - 1].study(...clear(element("study")));
+  setHtml("study-key", key);
+  setName("study", name);
 }

@@ -3,8 +3,8 @@ play with it.
 
 The page holds no run. `solver.js` does what `solver/plain.py` does, in a worker
 (`worker.js`). `story.js` has the words, `figures.js` the figures of a run, and
-`studies.js` those of tables, with the means of `drawing.js`. `explorer.js` links them to
-what the reader does.
+`studies.js` those of many sliders, with the means of `drawing.js`. `explorer.js` links
+them to what the reader does, and `address.js` writes it as an address.
 """
 
 import json
@@ -14,21 +14,16 @@ from os import PathLike
 from string import Template
 from typing import Any
 
-from precursors.model.chain import SLIDER, parse_theta
 from precursors.support.files import write_text
 
-SCRIPTS = ("drawing.js", "story.js", "studies.js", "figures.js", "explorer.js")
-
-
-def proved_slider(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Arguments of `Chain.from_slider` of a chain of the configuration's
-    `horizon.proved`."""
-    slider = {
-        name: values.get(name, value)
-        for name, value in SLIDER.items()
-        if name != "weights"
-    }
-    return slider | {"theta": parse_theta(values.get("theta", 0))}
+SCRIPTS = (
+    "drawing.js",
+    "story.js",
+    "studies.js",
+    "figures.js",
+    "address.js",
+    "explorer.js",
+)
 
 
 def write_explorer(data: Mapping[str, Any], path: str | PathLike[str]) -> None:
@@ -38,17 +33,16 @@ def write_explorer(data: Mapping[str, Any], path: str | PathLike[str]) -> None:
     ----------
     data
         `scenes` of the paper: the `slider` of each, as arguments of
-        `Chain.from_slider`; its `mu_sapp` and the `mean` of F_X/F_Z after its first
-        global slip, or None; mu_sapp of sliders with the same printed inputs, `draws`,
-        of which k of n are `within` what the paper prints; and rows of `medians`: number
-        of blocks, and 5, 50 and 95 % of mu_sapp. The steps use the scenes with the
-        smallest and largest theta, and the nearest to 0. `tilted`: another `theta` and
-        its `mu_sapp`. `all_six`: [k, n] of the sliders with the same printed inputs
-        have all numbers of the paper, or None. `proved`: a `slider` and the `duration`
-        [s] up to which its transitions are proved. `duration` [s] of a run; `tolerance`
-        [s] of the times of a run that is called predictable; `printed`: range of
-        mu_sapp; `half_a_digit`: by how much sliders with the same printed inputs
-        differ; `noise` of the loads [%].
+        `Chain.from_slider`; its `mu_sapp`, or None; mu_sapp of sliders with the same
+        printed inputs, `draws`, of which k of n are `within` what the paper prints; and
+        `finest`: the largest number of blocks tried, and its median mu_sapp. The steps
+        use the scenes with the smallest and largest theta, and the nearest to 0.
+        `tilted`: another `theta` and its `mu_sapp`. `all_six`: [k, n] of the sliders
+        with the same printed inputs have all numbers of the paper, or None. `proved`: a
+        `slider` and the `duration` [s] up to which its transitions are proved.
+        `duration` [s] of a run; `tolerance` [s] of the times of a run that is called
+        predictable; `printed`: range of mu_sapp; `half_a_digit`: by how much sliders
+        with the same printed inputs differ; `noise` of the loads [%].
     path
         The file that is written.
     """

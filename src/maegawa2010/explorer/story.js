@@ -1,4 +1,4 @@
-// What the page says: its words, its sliders and its six steps, and how it writes numbers. An
+// What the page says: its words, its sliders and its steps, and how it writes numbers. An
 // underscore sets what follows as an index: F_X.
 
 const DATA = JSON.parse(document.getElementById("data").textContent);
@@ -11,16 +11,15 @@ const WORDS = {
   bars: ["bar", "The net force of the two springs that hold the block."],
   frames: ["frame", "The limit of static friction: μ_s times the normal load of the block."],
   blocks: ["block", "The front: the farthest block that this slip reaches."],
-  line: ["dashed line", `F_X − μ_k W, where W is the normal load from the trailing edge up to a
-    point. Friction takes μ_k W on the way, and at the front nothing is left: F_X = μ_k W(L_p).`],
+  line: ["dashed line", `F_X − μ_k W, with F_X at the onset of the slip, where W is the normal load
+    from the trailing edge up to a point. Friction takes μ_k W on the way.`],
   load: ["F_X", "Tangential load: the force of the drive on block 1."],
-  left: ["Grey", "Earlier slips left this push in the springs."],
-  added: ["colour", "This slip pushes the springs ahead of it, while F_X itself dips."],
+  stairs: ["stairs", "The push in each spring, from the drive’s on the left to the last."],
+  added: ["colour", "Push that this slip adds to the springs."],
+  released: ["grey", "Push that this slip takes from the springs."],
   front: ["front length L_p", `How far into the row a slip gets, from the trailing edge. L is the
     length of the row.`],
   drive: ["drive", "It moves with the speed V and pushes block 1 through a spring of stiffness K."],
-  stairs: ["K x_1", `How far block 1 has moved, times K: the load that all slips so far have
-    released, K V t − F_X.`],
   apparent: ["μ_sapp", `Apparent static friction: the largest F_X up to the first global slip,
     divided by the normal load F_Z of the row.`],
   arrows: ["arrows", "The normal loads w of the blocks. Their sum is F_Z, whatever the tilt."],
@@ -70,13 +69,15 @@ const SPREAD = Math.max(...TILTS.map(of("mu_sapp"))) - Math.min(...TILTS.map(of(
 const range = (value, half, decimals) =>
   `${(value - half).toFixed(decimals)} to ${(value + half).toFixed(decimals)}`;
 const ratio = () => (run ? apparent() : UNIFORM.mu_sapp)?.toFixed(4);
-const { half_a_digit: HALF, all_six: ALL_SIX } = DATA;
+const { half_a_digit: HALF, all_six: ALL_SIX, printed: BAND } = DATA; // BAND: of mu_sapp
+const PAPERS = (BAND[0] + BAND[1]) / 2;
 
-// Steps: heading, text, the slider and event that are shown, the part of time and whether it is
-// played, and the study.
+// Steps: name, heading, text, the slider and event that are shown, the part of time and whether it
+// is played, how much of the page is `shown`, and a study in the place of the row.
 const STEPS = [
   {
-    title: "What is a precursor?", scene: UNIFORM, pick: "partial", view: "event", plays: true,
+    name: "Slip", title: "What is a precursor?", scene: UNIFORM, pick: "partial", view: "event",
+    plays: true, shows: "slip",
     text: (word) => `The slider is cut into blocks with springs between them, and the
       ${word("drive")} pushes the first. The ${word("bars")} under a block is the net force of its
       springs, the ${word("frames")} is the limit of static friction. <b>A block slips when its bar
@@ -85,26 +86,40 @@ const STEPS = [
       whole row.`,
   },
   {
-    title: "Where does it stop?", scene: UNIFORM, pick: "longer", view: "event", plays: true,
-    text: (word) => `Each sliding block takes its kinetic friction from the load
-      ${word("load")}. The ${word("line")} is what is left. <b>Where it meets zero, the slip
-      stops</b>, here after ${word("blocks")}. ${word("left")} is the push before the slip, and the
-      ${word("added")} what the slip adds. The next slip starts at a higher load, so its line meets
-      zero farther along. Press → and see the ${word("front")} grow; now and then a shorter slip
-      comes in between.`,
-  },
-  {
-    title: "When does the whole row slide?", scene: UNIFORM, pick: "global", view: "event",
+    name: "Push", title: "Where does it stop?", scene: UNIFORM, pick: "longer", view: "event",
     plays: true,
-    text: (word) => `The spring of the ${word("drive")} presses with ${word("load")}. Each slip
-      relaxes it, and ${word("stairs")} climbs one step. When F_X is about μ_k F_Z, with the normal
-      load F_Z of the whole row, the ${word("line")} reaches the leading edge. A wave then runs
-      through the row, and all blocks slide: a ${word("global")}. So the row lets go at
-      <b>${ratio()} F_Z</b>. This number is ${word("apparent")}, although each block holds
-      ${twoDigits(state.slider.mu_s)} times its normal load.`,
+    text: (word) => `The ${word("stairs")} are the push in each spring, thin before the slip and
+      thick now. The slip adds the ${word("added")} and releases the ${word("released")}. Each
+      sliding block takes its kinetic friction from the load ${word("load")}; the ${word("line")} is
+      what is left. <b>The farthest slips stop where friction has used up the push.</b> This one
+      reaches ${word("blocks")}<span data-tells="reason"></span> Press → for the next: a higher
+      load carries the ${word("front")} farther, and now and then a shorter slip comes between.`,
   },
   {
-    title: "What does the normal load do?", scene: nearTheta(-1), pick: "partial",
+    name: "Mean", title: "What does not depend on the loading?", scene: nearTheta(1),
+    pick: "global", view: "all", study: drawMeans,
+    text: (word) => `Once the line reaches the leading edge, the whole row slides: a
+      ${word("global")}. From then on ${word("load")} rises and falls, to other peaks under each
+      loading. <b>Over a long time its mean is the same: the kinetic friction μ_k F_Z</b>, because
+      the drive does the work that friction takes. Move N: the teeth shrink. The peak at the first
+      global slip, ${word("apparent")}, falls to
+      ${ofTilts(({ finest }) => finest.mu_sapp.toFixed(3))} with ${TILTS[0].finest.n_blocks} blocks
+      (medians with ${digits(DATA.noise)} % noise in the loads). <b>So the paper’s
+      ${twoDigits(PAPERS)} belongs to its ten blocks.</b> Move μ_k far down: blocks slide backward,
+      and the mean rises above it.`,
+  },
+  {
+    name: "Peak", title: "When does the whole row slide?", scene: UNIFORM, pick: "global",
+    view: "event", plays: true,
+    text: (word) => `Each slip relaxes the spring of the ${word("drive")} a little, but
+      ${word("load")} climbs on. When it is about μ_k F_Z, with the normal load F_Z of the whole row,
+      the ${word("line")} reaches the leading edge. A wave then runs through the row, and all blocks
+      slide: a ${word("global")}. So the row lets go at <b>${ratio()} F_Z</b>. This number is
+      ${word("apparent")}, although each block holds ${twoDigits(state.slider.mu_s)} times its
+      normal load.`,
+  },
+  {
+    name: "Tilt", title: "What does the normal load do?", scene: nearTheta(-1), pick: "partial",
     text: (word) => `The ${word("arrows")} show the normal load of each block. θ tilts it and bends
       the ${word("line")}. With more load at the trailing edge the line falls early: precursors are
       few and late. With less there, they are many and early. For every tilt the line ends at
@@ -115,7 +130,8 @@ const STEPS = [
       <br>${mu_sapp?.toFixed(4) ?? "–"}</button>`).join("")}`,
   },
   {
-    title: "Would another slider agree?", scene: nearTheta(1), pick: "global", study: drawDigits,
+    name: "Digits", title: "Would another slider agree?", scene: nearTheta(1), pick: "global",
+    study: drawDigits,
     text: (word) => `The paper prints its inputs with one to three digits:
       μ_s = ${twoDigits(UNIFORM.slider.mu_s)} is anything from
       ${range(UNIFORM.slider.mu_s, HALF.mu_s, 3)}, and V anything from
@@ -125,19 +141,6 @@ const STEPS = [
       ${word("apparent")}, ${BAND.map(twoDigits).join(" to ")}, and
       <b>${ALL_SIX ? `${ALL_SIX[0] || "none"} of ${ALL_SIX[1]}` : "few"} all six numbers of the
       paper</b>. The line is your slider: move K, or V.`,
-  },
-  {
-    title: "What holds?", scene: UNIFORM, blocks: 40, pick: "global", view: "all",
-    study: drawBlocks,
-    text: (word) => `<b>After the first global slip the time mean of ${word("load")} is μ_k F_Z,
-      for every loading and number of blocks</b>, as the drive does the work that friction takes.
-      In the paper’s scenes it is ${ofTilts(({ mean }) => mean?.toFixed(4) ?? "–")} F_Z. The
-      largest F_X lies above it by as much as the slips are large. Many blocks make them small: with
-      ${digits(DATA.noise)} % noise in the loads, the medians of ${word("apparent")} are
-      ${ofTilts(({ medians }) => medians[0][2].toFixed(3))} with ${TILTS[0].medians[0][0]} blocks,
-      and ${ofTilts(({ medians }) => medians.at(-1)[2].toFixed(3))} with
-      ${TILTS[0].medians.at(-1)[0]}. <b>So 0.49 belongs to the ten blocks</b>, and each of the
-      paper’s six numbers is one draw of many.`,
   },
 ];
 // An entry of a legend: dot, ring or box in a colour of the style sheet.
@@ -169,7 +172,8 @@ function quantity(value, unit) {
   return `${size < 1e-9 ? "0" : number.toFixed(Math.max(0, 3 - before))} ${sign}${unit}`;
 }
 const counts = (n, what) => `${n} ${what}${n === 1 ? "" : "s"}`;
-const marked = (text) => text.replace(/([FLKxμ])_(sapp|[XZpsk1])/g, "$1<sub>$2</sub>");
+const marked = (text) => text.replace(/([FLKxμ])_(sapp|[XZpsk1])/g, "$1<sub>$2</sub>")
+  .replace(/(<span class="tip".*?<\/span>)<\/span>([.,:;])/gs, "$1$2</span>"); // on one line
 // A word with its explanation; `place` tells it from that elsewhere on the page.
 function explained(place, name) {
   const [text, about] = WORDS[name], tip = `tip-${place}-${name}`;

@@ -1,4 +1,5 @@
-"""Other readings of the paper's words, one change at a time, and what they give."""
+"""Readings of what the paper leaves open: ours, others by one change, and what each of
+them gives."""
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -7,21 +8,30 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
 from maegawa2010 import printed
-from maegawa2010.paper.readings import (
-    FRONTS,
-    GLOBAL_SLIPS,
-    SHORT_EVENTS,
-    Definition,
-)
-from precursors.analysis.slips import slip_table
+from precursors.analysis.slips import slip_table, until_global
 from precursors.analysis.summary import summary_of
 from precursors.model.chain import Chain, parse_theta
 from precursors.solver import plain
 from precursors.solver.run import Record, Run
 from precursors.solver.simulate import MAX_TRANSITIONS, simulate
 
+GLOBAL_SLIPS = {
+    "at once": "in which all blocks slide at the same instant",
+    "each": "in which every block slides at some time",
+}
+FRONTS = {
+    "front": "farthest block that slid",
+    "n_slid": "number of blocks that slid",
+    "n_simultaneous": "most blocks that slid at the same instant",
+}
+SHORT_EVENTS = {
+    "shorter": "shorter than one before it",
+    "not longer": "not longer than all before it",
+    "shorter than the last": "shorter than the one just before it",
+}
 # The size of theta where it is that of the scenes.
 OF_SCENES = "scenes"
 SIGNS = (-1, 0, 1)
@@ -34,17 +44,57 @@ SWITCHING = {
 
 
 @dataclass(frozen=True)
-class Reading(Definition):
-    """A reading of the paper's words, by default ours.
+class Reading:
+    """A reading of the paper's words; the default is ours, which gives its numbers.
 
-    `changed` names the one column of the table that is not as in ours, and `reading`
-    says how.
+    Attributes
+    ----------
+    changed, reading : str
+        The one attribute below that is not as in ours, and how it is.
+    global_slip : str or float
+        A key of GLOBAL_SLIPS, or the drop of F_X [N] above which an event is a global
+        slip.
+    short : str
+        Which events Fig. 13 leaves out, a key of SHORT_EVENTS.
+    front : str
+        The column of the slip table that is the length of an event, a key of FRONTS.
+    degree : float or str
+        The size of theta.
+    switching : str
+        When a block sticks, a key of SWITCHING.
     """
 
     changed: str = "nothing"
     reading: str = "our reading"
+    global_slip: str | float = "at once"
+    short: str = "shorter"
+    front: str = "front"
     degree: float | str = OF_SCENES
     switching: str = COULOMB
+
+    def is_global(self, slips: pd.DataFrame) -> Any:
+        """Which events are global slips."""
+        if self.global_slip == "at once":
+            return slips["is_global"]
+        if self.global_slip == "each":
+            return slips["n_slid"] == slips["n_blocks"]
+        return slips["load_before_N"] - slips["load_after_N"] > self.global_slip
+
+    def is_short(self, slips: pd.DataFrame) -> NDArray[np.bool_]:
+        """Which events are short."""
+        front = slips[self.front].to_numpy()
+        farthest = np.maximum.accumulate(front)
+        if self.short == "shorter":
+            return front < farthest
+        if self.short == "not longer":
+            return np.diff(farthest, prepend=0) == 0
+        return np.diff(front, prepend=0) < 0
+
+    def read(self, slips: pd.DataFrame) -> pd.DataFrame:
+        """A slip table by this reading."""
+        is_global = self.is_global(slips)
+        is_counted = until_global(is_global) & ~self.is_short(slips)
+        return slips.assign(is_global=is_global, counted=is_counted)
 
 
 def readings(
@@ -138,11 +188,11 @@ def run_switching(chain: Chain, duration: float, rule: str) -> Record:
 
 
 def numbers(
-    run: Record, definition: Definition, of_paper: Mapping[str, float]
+    run: Record, reading: Reading, of_paper: Mapping[str, float]
 ) -> dict[str, Any]:
     """Both numbers of a run, and how many of them are the paper's: mu_sapp to a unit of
     its last digit."""
-    found = summary_of(definition.read(slip_table(run)))
+    found = summary_of(reading.read(slip_table(run)))
     counted = found.events_counted if found.reached else math.nan
     off = abs(found.mu_sapp - of_paper.get("mu_sapp", math.nan))
     agree = [counted == of_paper.get("events_counted"), off <= printed.LAST_DIGIT]

@@ -14,7 +14,7 @@ import pandas as pd
 import scipy
 
 from precursors.analysis.load_curve import load_curve
-from precursors.analysis.slips import find_slips
+from precursors.analysis.slips import slip_table
 from precursors.analysis.summary import apparent_friction
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.statics import (
@@ -211,7 +211,7 @@ def below_limit(scene: str, run: Run) -> Check:
     At the onset of each slip: how far the block farthest from its limit mu_s w_i is below
     it, over mu_s w_i.
     """
-    forces = run.spring_forces(find_slips(run)["onset"])
+    forces = run.spring_forces(slip_table(run)["onset_s"])
     below = 1.0 + np.diff(forces, append=0.0) / run.chain.strength
     found = round(float(below.max(axis=1).min(initial=math.inf)), DIGITS)
     return Check("below", scene, "1", 0.0, found, found > 0.0)

@@ -5,7 +5,7 @@ from typing import Any
 
 import pandas as pd
 
-from precursors.analysis.slips import first_global
+from precursors.analysis.slips import until_global
 
 Tables = Mapping[str, pd.DataFrame]
 
@@ -36,4 +36,5 @@ def before_global(tables: Tables, scene: str) -> pd.DataFrame:
     """Slip events of a scene before the first global slip: its precursors, short ones
     included."""
     slips = tables[f"{scene}_slips"]
-    return slips.iloc[: first_global(slips["is_global"])]
+    is_global = slips["is_global"]
+    return slips[until_global(is_global) & ~is_global]

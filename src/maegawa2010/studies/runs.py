@@ -1,15 +1,16 @@
 """The runs of a study's members, each with its numbers."""
 
+import math
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
-from maegawa2010.paper.readings import speedup
 from maegawa2010.studies.members import Study, chain_of
-from precursors.analysis.events import slip_events
-from precursors.analysis.slips import slip_columns
-from precursors.analysis.summary import summaries
+from precursors.analysis.slips import slip_events
+from precursors.analysis.summary import summarise
 from precursors.model.chain import Chain
 from precursors.solver.many import simulate_many
 from precursors.solver.run import Record, Run
@@ -18,6 +19,8 @@ from precursors.support.files import write_table
 
 # Runs of a batch are in memory at the same time: some 200 of 10 blocks, 10 of 200.
 BLOCKS_PER_BATCH = 2000
+# L_p/L from which the length of the experiment's precursors grows faster (Sect. 6.1).
+KINK = 0.7
 
 
 def run_chunk(study: Study, chunk: str, path: str) -> None:
@@ -54,11 +57,7 @@ def numbers_of(runs: Iterable[Record]) -> pd.DataFrame:
     """A row for each run: its summary (see `summarise`), and the growth of L_p (see
     `speedup`)."""
     runs = list(runs)
-    tables = [slip_columns(slip_events(run), run.chain) for run in runs]
-    return summaries(tables).assign(
-        speedup=[speedup(table) for table in tables],
-        transitions=[len(run.transitions) for run in runs],
-    )
+    return summarise(runs).assign(speedup=[speedup(slip_events(run)) for run in runs])
 
 
 def up_to_global_slip(chains: Sequence[Chain], duration: float) -> Sequence[Run]:
@@ -71,3 +70,26 @@ def up_to_global_slip(chains: Sequence[Chain], duration: float) -> Sequence[Run]
             so_far: Any = limit.run
             return [so_far]
         return [run for chain in chains for run in up_to_global_slip([chain], duration)]
+
+
+def speedup(slips: NDArray[np.void]) -> float:
+    """Growth of L_p with F_X beyond KINK L, over that before, in the events counted of
+    `slip_events`.
+
+    The first event of the whole length ends the second, and the last one before it of
+    up to KINK L divides the two. NaN where one of them has no rise of L_p or F_X.
+    """
+    counted = slips[slips["counted"]]
+    front, load, n_blocks = (
+        counted[name] for name in ("front", "load_before_N", "n_blocks")
+    )
+    whole = np.flatnonzero(front == n_blocks)
+    if not len(whole) or not slips["is_global"].any():
+        return math.nan
+    up_to_kink = np.flatnonzero(front[: whole[0]] <= KINK * n_blocks[0])
+    three = [0, up_to_kink[-1] if len(up_to_kink) else 0, whole[0]]
+    rise = np.diff(front[three])
+    span = np.diff(load[three])
+    if rise[0] <= 0 or span[1] <= 0:
+        return math.nan
+    return float(rise[1] * span[0] / (rise[0] * span[1]))

@@ -1,1 +1,1 @@
-"""Digest of code, timing, statistics of runs."""
+"""What scripts of the workflow share, digest of code, provenance, timing, statistics of runs."""

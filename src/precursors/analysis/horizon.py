@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from precursors.analysis.events import transitions_right
+from precursors.analysis.agreement import transitions_right
 from precursors.model.chain import FloatArray
 from precursors.model.checks import positive
 from precursors.solver.many import simulate_many

@@ -1,19 +1,15 @@
 """The numbers of a run: events, mu_sapp (Eq. 1) and the first global slip."""
 
 import math
-from collections.abc import Iterable, Mapping
-from typing import Any, NamedTuple, get_type_hints
+from collections.abc import Iterable
+from typing import NamedTuple, get_type_hints
 
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from precursors.analysis.events import slip_events
-from precursors.analysis.slips import first_global, slip_columns
+from precursors.analysis.slips import slip_events, until_global
 from precursors.solver.run import Record
-
-# A slip table, as a DataFrame or not.
-Columns = pd.DataFrame | Mapping[str, NDArray[Any]]
 
 
 class Summary(NamedTuple):
@@ -49,14 +45,9 @@ def summarise(runs: Record | Iterable[Record]) -> pd.DataFrame:
         global_slip_end_s NaN.
     """
     runs = [runs] if isinstance(runs, Record) else list(runs)
-    transitions = np.array([len(run.transitions) for run in runs], dtype=int)
-    tables = [slip_columns(slip_events(run), run.chain) for run in runs]
-    return summaries(tables).assign(transitions=transitions)
-
-
-def summaries(tables: Iterable[Columns]) -> pd.DataFrame:
-    """A row for each slip table, as `summarise` has for each run."""
-    return pd.DataFrame(np.array([summary_of(table) for table in tables], SUMMARY))
+    rows = np.array([summary_of(slip_events(run)) for run in runs], SUMMARY)
+    transitions = np.array([len(run.transitions) for run in runs], int)
+    return pd.DataFrame(rows).assign(transitions=transitions)
 
 
 def apparent_friction(run: Record) -> float:
@@ -67,25 +58,26 @@ def apparent_friction(run: Record) -> float:
     return float(summarise([run])["mu_sapp"].item())
 
 
-def summary_of(slips: Columns) -> Summary:
-    """The numbers of a run from the columns of its `slip_table`."""
-    is_global = np.asarray(slips["is_global"], bool)
-    first = first_global(is_global)
+def summary_of(slips: pd.DataFrame | NDArray[np.void]) -> Summary:
+    """The numbers of a run from its `slip_table` or `slip_events`."""
     counts = Summary(
-        events_to_global_slip=len(is_global) if first is None else first + 1,
-        events_counted=int(np.sum(slips["counted"])),
-        events_in_all=len(is_global),
-        reached=first is not None,
+        events_to_global_slip=int(until_global(slips["is_global"]).sum()),
+        events_counted=int(slips["counted"].sum()),
+        events_in_all=len(slips),
+        reached=bool(slips["is_global"].any()),
     )
-    if first is None:
+    if not counts.reached:
         return counts
-    slip = {name: np.asarray(column)[first] for name, column in slips.items()}
+
+    def of_first(column: str) -> float:
+        return float(np.asarray(slips[column])[counts.events_to_global_slip - 1])
+
     return counts._replace(
         # Eq. 1. F_X is largest where block 1 begins to slide, or sticks after it slid
         # backward: dF_X/dt = K (V - v_1). So it is that of a transition, to within V.
-        mu_sapp=slip["largest_load_N"] / slip["normal_load_N"],
-        largest_load_N=slip["largest_load_N"],
-        global_slip_s=slip["onset_s"],
-        global_slip_end_s=slip["end_s"],
-        global_slip_load_N=slip["load_before_N"],
+        mu_sapp=of_first("largest_load_N") / of_first("normal_load_N"),
+        largest_load_N=of_first("largest_load_N"),
+        global_slip_s=of_first("onset_s"),
+        global_slip_end_s=of_first("end_s"),
+        global_slip_load_N=of_first("load_before_N"),
     )

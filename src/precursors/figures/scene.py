@@ -2,7 +2,6 @@
 about the first global slip, and when and where blocks slipped."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import cycle
 from typing import Any
 
@@ -107,12 +106,10 @@ def draw(
             for panel in (load, fronts):
                 panel.axvspan(*view, color=style.PALE, lw=0, zorder=0)
             _draw_inset(panels["I"], slips, trace, view)
-            # Points beyond the inset would stretch its axis of F_X.
-            seen = [
-                replace(each, points=each.points[_within(each.points[:, 0], view)])
-                for each in data
-            ]
-            _draw_measured_loads(panels["I"], seen, trace, first_s)
+            for each, line in zip(_loads(data), cycle(LINES), strict=False):
+                # Points beyond the inset would stretch its axis of F_X.
+                seen = each.points[_within(each.points[:, 0], view)]
+                panels["I"].plot(*seen.T, **MEASURED, linestyle=line)
         figure.align_ylabels()
         load.set_title(_title(slips, title), loc="left", pad=4, wrap=True)
         if has_key:
@@ -155,11 +152,15 @@ def _draw_measured_loads(
 ) -> None:
     """Draw measured loads; the figure gets lines of text that say how far they are."""
     curve = trace[LOAD].to_numpy()
-    loads = [each for each in data if not each.are_lengths]
+    loads = _loads(data)
     labels = [each.beside(curve, first_s, "N") for each in loads]
     for each, label, line in zip(loads, labels, cycle(LINES), strict=False):
         axes.plot(*each.points.T, **MEASURED, linestyle=line, label=label)
     axes.figure.set_label("\n".join(" ".join(label.split()) for label in labels))
+
+
+def _loads(data: Sequence[Measured]) -> list[Measured]:
+    return [each for each in data if not each.are_lengths]
 
 
 def _draw_measured_lengths(axes: Axes, data: Sequence[Measured]) -> None:

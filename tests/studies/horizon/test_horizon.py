@@ -1,5 +1,5 @@
-"""The Lyapunov exponent is that of the linearised motion, a rate, and as uncertain as
-it says."""
+"""Proofs are about the chains of the configuration. The Lyapunov exponent is that of the
+linearised motion, a rate, and as uncertain as it says."""
 
 from dataclasses import replace
 
@@ -8,13 +8,24 @@ import pandas as pd
 import pytest
 import scipy
 from chains import SLIDER
+from places import CERTIFICATES
+from settings import CONFIG
 
 from maegawa2010.studies.horizon import figure, lyapunov
+from maegawa2010.studies.horizon.chains import (
+    chain_duration,
+    exact_chain,
+    is_about,
+    scene_exact_chain,
+)
 from maegawa2010.studies.horizon.lyapunov import lyapunov_exponent, lyapunov_table
 from maegawa2010.studies.horizon.tables import proof_tables
 from precursors import simulate
-from precursors.proof import ExactChain, certify
+from precursors.proof import Certificate, ExactChain, certify
 
+CHAINS = CONFIG["horizon"]["proved"]
+# A committed certificate is smaller [bytes].
+LARGEST_FILE = 300_000
 # Exponents [1/s] that the linearised motion gave for the scenes.
 LINEARISED = {"-5/6": 1.657, "0": 2.164, "5/6": 1.909}
 
@@ -117,3 +128,37 @@ def predicted_errors():
 
 
 PICTURES = {"horizon": predicted_errors}
+
+
+@pytest.mark.parametrize("name", CHAINS)
+def test_the_committed_certificates_are_about_the_chains_of_the_configuration(
+    name,
+):
+    certificate = Certificate.load(CERTIFICATES / f"{name}.json.gz")
+    chain = exact_chain(name, CHAINS[name])
+    duration = chain_duration(CHAINS[name])
+    assert is_about(certificate, chain, duration)
+    assert not is_about(certificate, chain, 2 * duration)
+    assert not is_about(certificate, replace(chain, mu_k=0), duration)
+    assert (CERTIFICATES / f"{name}.json.gz").stat().st_size < LARGEST_FILE
+
+
+def test_theta_of_a_scene_is_not_rounded():
+    config = {
+        "chain": {"n_blocks": 10, "normal_load": 400.0, "length": 0.1},
+        "load_cells": {"spacing": 0.06},
+        "scenes": {
+            "cells": {"load_cell_a": 100.0, "load_cell_b": 300.0},
+            "fraction": {"theta": "5/6"},
+        },
+    }
+    for name in config["scenes"]:
+        assert scene_exact_chain(config, name) == ExactChain.from_slider(theta="5/6")
+
+
+def test_a_scene_with_measured_loads_is_not_proved():
+    config = {"chain": {}, "scenes": {"measured": {"weights": [30.0, 40.0, 50.0]}}}
+    with pytest.raises(
+        ValueError, match=r"^scenes\.measured must have .* has weights$"
+    ):
+        scene_exact_chain(config, "measured")

@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 from maegawa2010.methods.events import NUDGE, EventMotion
 from maegawa2010.methods.scipy_events import solve_scipy
 from maegawa2010.studies.failures.common import Curve
-from precursors.analysis.events import transitions_right
+from precursors.analysis.agreement import transitions_right
 from precursors.model.chain import Chain
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate

@@ -14,7 +14,7 @@ import numpy as np
 import pandas as pd
 import scipy
 
-from precursors.analysis.events import slip_events
+from precursors.analysis.slips import slip_table
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.statics import positions_from_compressions
 from precursors.solver.run import Run
@@ -80,9 +80,10 @@ def _growth(run: Run) -> tuple[FloatArray, FloatArray]:
     the growth, and the direction in which it is off is the next start.
     """
     chain = run.chain
-    events = slip_events(run)
-    finished = events[np.isfinite(events["end_s"])]
-    rests = (finished["end_s"][:-1] + finished["onset_s"][1:]) / 2.0
+    onset, end = (
+        slip_table(run).dropna(subset="end_s")[["onset_s", "end_s"]].to_numpy().T
+    )
+    rests = (end[:-1] + onset[1:]) / 2.0
     forces = run.spring_forces(rests)
     distance = DISTANCE * chain.strength.sum()
     direction = np.random.default_rng(SEED).standard_normal(chain.n_blocks - 1)
@@ -102,7 +103,7 @@ def _growth(run: Run) -> tuple[FloatArray, FloatArray]:
                 f"all differences die out within {span:g} s: N = {chain.n_blocks}"
             )
         growth.append(np.log(factor))
-    return finished["onset_s"][2:], np.cumsum(growth)
+    return onset[2:], np.cumsum(growth)
 
 
 def lyapunov_table(

@@ -14,8 +14,7 @@ from maegawa2010.studies.models.quasistatic import (
     OVERDAMPED,
     quasistatic_slips,
 )
-from precursors.analysis.events import slip_events
-from precursors.analysis.slips import slip_columns
+from precursors.analysis.slips import slip_events
 from precursors.analysis.summary import summary_of
 from precursors.model.chain import Chain
 from precursors.model.statics import longest_run
@@ -51,7 +50,7 @@ def cascade_answers(chain: Chain, overshoot: float) -> dict[str, Any]:
 def loading_answers(chain: Chain, slips: NDArray[np.void]) -> dict[str, Any]:
     """A model's answers from its slip events up to the first global slip; NaN for one
     that needs a global slip and has none."""
-    found = summary_of(slip_columns(slips, chain))
+    found = summary_of(slips)
     blocks = np.arange(1, chain.n_blocks + 1)
     reached = np.searchsorted(np.maximum.accumulate(slips["front"]), blocks)
     return {

@@ -33,7 +33,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.analysis.events import SLIP, Slip
+from precursors.analysis.slips import SLIP, Slip, rows_of
 from precursors.model.chain import Chain, FloatArray
 from precursors.support.compiled import entry
 
@@ -59,8 +59,8 @@ class Cascade(NamedTuple):
 def quasistatic_slips(
     chain: Chain, overshoot: float = ENERGY_CONSERVED
 ) -> NDArray[np.void]:
-    """Slip events of the quasi-static chain, from rest to its first global slip: an
-    array of dtype SLIP.
+    """Slip events of the quasi-static chain, from rest to its first global slip, as
+    `slip_events` has them.
 
     An event ends when it begins; `n_simultaneous` is the largest set that moves.
     `overshoot` is how far the blocks move beyond the balance with kinetic friction,
@@ -120,7 +120,7 @@ def quasistatic_slips(
             )
         )
         if slips[-1].is_global:
-            return np.array(slips, SLIP)
+            return rows_of(np.array(slips, SLIP), chain)
     raise RuntimeError(f"no global slip within {MAX_EVENTS} events")
 
 

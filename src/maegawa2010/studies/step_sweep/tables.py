@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from maegawa2010.methods import METHODS, attempt
-from precursors.analysis.events import transitions_right
+from precursors.analysis.agreement import transitions_right
 from precursors.analysis.slips import slip_table
 from precursors.analysis.summary import summary_of
 from precursors.benchmark.compare import until_global_slip
