@@ -64,8 +64,12 @@ rule fig09:
 rule write_paper:
     """Typeset the article or the supplement with the numbers and figures of the results."""
     input:
-        # Found in the text of the document. If a file were overlooked, Typst would fail.
-        shown=lambda wildcards: results_shown(PAPER_SOURCE / f"{wildcards.document}.typ"),
+        # Read from the text of the document. The job refuses to run without a result that no rule makes.
+        shown=lambda wildcards: [
+            path
+            for path in results_shown(PAPER_SOURCE / f"{wildcards.document}.typ")
+            if any(rule.is_producer(path) for rule in workflow.rules)
+        ],
         main=PAPER_SOURCE / "{document}.typ",
         source=sorted(path for path in PAPER_SOURCE.rglob("*.*") if path.suffix != ".pdf"),
         about=ROOT / "CITATION.cff",

@@ -35,6 +35,8 @@ def manifest(root: Path = Path()) -> list[str]:
 
 def difference(made: Path, golden: Path) -> str:
     """Describe how a table or figure differs from the golden one; empty if it does not."""
+    if not golden.exists():
+        return f"{golden} does not exist: run make golden"
     if made.suffix == ".csv":
         return table_difference(made, golden)
     if made.suffix == ".png":

@@ -6,6 +6,7 @@ import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
+from maegawa2010.paper.shown import results_shown
 from maegawa2010.support.job import job
 from precursors.support.files import write_whole
 
@@ -22,12 +23,19 @@ def main(
     Raises
     ------
     ValueError
-        In one line: the errors or warnings of Typst, and where they occur.
+        In one line: which result is missing, or the errors or warnings of Typst and
+        where they occur.
     """
     import matplotlib
     import typst  # slow, and the tests of other scripts import this directory
 
     main_file = Path(main_file)
+    missing = sorted({*results_shown(main_file)} - {*map(str, results)})
+    if missing:
+        raise ValueError(
+            f"paper/{main_file.name} shows {', '.join(missing)}, which no rule makes: "
+            "delete what shows it, or include the study that makes it"
+        )
     with tempfile.TemporaryDirectory() as directory:
         root = Path(directory)
         shutil.copytree(main_file.parent, root / "paper")
