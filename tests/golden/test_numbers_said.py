@@ -106,15 +106,19 @@ def test_readme_tells_the_numbers_of_the_tables():
 def test_readme_tells_what_was_found():
     page = "README.md"
     runs = table("balance_runs_full")
-    means = runs.query("varied != 'mu_k'")
+    means = pd.concat([runs, table("balance")]).query("mu_k == 0.45")
     lowest = means.min(numeric_only=True)
     highest = means.max(numeric_only=True)
-    ends = [end[name] for name in ("mean", "largest") for end in (lowest, highest)]
+    ends = [
+        end[name]
+        for name in ("mean", "n_blocks", "largest")
+        for end in (lowest, highest)
+    ]
     assert_told(
         page,
-        "With a kinetic coefficient of {}, the mean of {} runs with {} to {} blocks is {} "
-        "to {} of the normal load, while their largest push is {} to {} of it",
-        [highest["mu_k"], len(means), lowest["n_blocks"], highest["n_blocks"], *ends],
+        "With a kinetic coefficient of {}, the mean is {} to {} of the normal load in all "
+        "our runs with {} to {} blocks, while the largest push is {} to {} of it",
+        [highest["mu_k"], *ends],
     )
     weak = runs.query("varied == 'mu_k' and mu_k == 0.1")
     above = 100 * (weak["mean"] / weak["mu_k"] - 1)
@@ -204,12 +208,12 @@ def test_docs_tell_how_far_the_numbers_can_be_trusted():
 
 def test_docs_tell_how_fragile_the_numbers_are():
     page = "docs/numbers.md"
-    thetas = ["0.833", "5/6", "0.8333343", "-5/6"]
+    thetas = ["0.833", "5/6", "0.8333343"]
     runs = [simulate(Chain.from_slider(theta=theta)) for theta in thetas]
     found = summarise(runs)[["events_counted", "mu_sapp", "global_slip_end_s"]]
     for theta, numbers in zip(thetas, found.to_numpy(), strict=True):
         assert_told(page, f"| {theta} | {{}} | {{}} | {{}} |", numbers)
-    fragile = found["mu_sapp"][1:3]
+    fragile = found["mu_sapp"][1:]
     assert_told(page, "by 1e-6 changes mu_sapp from {} to {}", fragile)
     digits = table("digits", "question").assign(n=table("digits")["n"].max())
     share = 100 * digits[["share", "low", "high"]]
@@ -259,9 +263,8 @@ def test_docs_tell_the_published_times():
         one = every.loc[method, value]
         seconds.append(one["seconds"])
         each = 1e6 * one["seconds"] / one["evaluations"]
-        numbers = [one["evaluations"], 1e3 * one["seconds"], each, one["time_error_s"]]
-        row = f"| {shown} | {{}} | {{}} ms | {{}} us | {{}} s |"
-        assert_told(page, row, numbers)
+        row = f"| {shown} | {{}} | {{}} us |"
+        assert_told(page, row, [one["evaluations"], each])
     assert_told(
         page,
         "heyoka, at its most accurate setting, takes {} times",
