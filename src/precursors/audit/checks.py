@@ -71,11 +71,11 @@ class Auditor:
         self.modes_of_row = lru_cache(room)(partial(normal_modes, run.chain))
         self.time = 0.0
         self.values_left = MAX_VALUES
-        self.found = Audit(roundings=0.0)
+        self.result = Audit(roundings=0.0)
 
     def walk(self) -> None:
         """Walk through the run, interval by interval, up to `MAX_PROBLEMS` problems."""
-        found = self.found
+        result = self.result
         intervals = self.run.intervals.tolist()
         instants = np.cumsum(intervals, dtype=np.longdouble).astype(float).tolist()
         transitions = [*self.run.transitions.tolist(), None]
@@ -121,7 +121,7 @@ class Auditor:
         )
         self.values_left -= passed.computed
         if self.values_left < 0:
-            self.found.is_undecided = not self.found.problems
+            self.result.is_undecided = not self.result.problems
             radians = duration * modes.frequencies.max(initial=0.0)
             self.report(
                 f"the audit ends here: it cannot look at {duration:.3g} s of "
@@ -262,11 +262,11 @@ class Auditor:
         A negative deviation passes.
         """
         off = float(wrong) / float(rounding) if rounding > 0 else 0.0
-        self.found.roundings = max(self.found.roundings, off)
+        self.result.roundings = max(self.result.roundings, off)
         if not wrong <= self.roundings * rounding:
             self.report(f"{what} {wrong:.3g} {unit}", time)
 
     def report(self, sentence: str, time: float | None = None) -> None:
         """Add a problem to the result."""
         when = self.time if time is None else time
-        self.found.problems.append(f"t = {when:.12g} s: {sentence}")
+        self.result.problems.append(f"t = {when:.12g} s: {sentence}")
