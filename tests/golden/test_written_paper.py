@@ -12,7 +12,7 @@ from pdf_text import pages_of
 from places import ROOT
 from pypdf import PdfReader
 
-from maegawa2010.paper.shown import results_shown
+from maegawa2010.paper.documents import cited_results
 
 SOURCE = ROOT / "paper"
 MOST_PAGES = 7
@@ -22,7 +22,7 @@ LEAST_TEXT = 500  # characters of a page
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A directory with what the article is made of, to be changed."""
-    for file in results_shown(SOURCE / "paper.typ"):
+    for file in cited_results(SOURCE / "paper.typ"):
         (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(ROOT / file, tmp_path / file)
     monkeypatch.chdir(tmp_path)
@@ -31,7 +31,7 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def write() -> bytes:
     write_paper.main(
-        SOURCE / "paper.typ", results_shown(SOURCE / "paper.typ"), "paper.pdf"
+        SOURCE / "paper.typ", cited_results(SOURCE / "paper.typ"), "paper.pdf"
     )
     return Path("paper.pdf").read_bytes()
 

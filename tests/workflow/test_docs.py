@@ -16,7 +16,7 @@ from pdf_text import pages_of
 from places import GOLDEN, RESULTS, ROOT, made
 from workflow_copy import copy_workflow
 
-from maegawa2010.paper.shown import results_shown
+from maegawa2010.paper.documents import cited_results
 from precursors import cli
 
 DOCS = ROOT / "docs"
@@ -153,7 +153,7 @@ def test_the_claim_shown_is_judged_and_its_number_set_in_the_paper(
     source = documented.path / "paper/mine.typ"
     source.write_text(f'#import "lib.typ": *\n{texts["typst"]}', encoding="utf-8")
     monkeypatch.chdir(ROOT)
-    write_paper.main(source, results_shown(source), tmp_path / "mine.pdf")
+    write_paper.main(source, cited_results(source), tmp_path / "mine.pdf")
     (load,) = made("reproduction").query(
         "scene == 'fig10' and quantity == 'global_slip_load_N'"
     )["reproduced"]

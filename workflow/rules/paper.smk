@@ -1,5 +1,5 @@
 from maegawa2010.paper.inputs import CLAIM_TABLES, POINT_TABLES
-from maegawa2010.paper.shown import results_shown
+from maegawa2010.paper.documents import cited_results
 
 PAPER_SOURCE = ROOT / "paper"
 # The article is about the paper's slider, and is not made for another.
@@ -65,7 +65,7 @@ rule write_paper:
     """Set a document of paper/ with the numbers and figures of the results."""
     input:
         # Read from the text of the document. What this missed Typst would not find, and the job would fail.
-        shown=lambda wildcards: results_shown(PAPER_SOURCE / f"{wildcards.document}.typ"),
+        shown=lambda wildcards: cited_results(PAPER_SOURCE / f"{wildcards.document}.typ"),
         main=PAPER_SOURCE / "{document}.typ",
         source=sorted(path for path in PAPER_SOURCE.rglob("*.*") if path.suffix != ".pdf"),
         about=ROOT / "CITATION.cff",

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from maegawa2010.studies.models import quasistatic
-from maegawa2010.studies.models.models import MODELS
+from maegawa2010.studies.models.answers import MODELS
 from maegawa2010.studies.models.quasistatic import (
     ENERGY_CONSERVED,
     OVERDAMPED,
