@@ -87,7 +87,7 @@ def jobs(node: SlurmNode) -> list[list[str]]:
     return [line.split("|") for line in listed.splitlines()]
 
 
-def test_a_cancelled_job_is_made_up_by_the_next_call_and_all_chunks_are_local_ones(
+def test_a_cancelled_job_is_rerun_and_chunks_equal_local_ones(
     tmp_path,
 ):
     left_out = shutil.ignore_patterns("results", ".*", "tests")

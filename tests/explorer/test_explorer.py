@@ -86,7 +86,7 @@ CHANGES = {
 }
 
 
-def test_the_page_tells_what_the_library_finds_with_the_pages_command(
+def test_the_page_has_the_numbers_of_the_library(
     page, file, tmp_path, capsys, monkeypatch
 ):
     monkeypatch.chdir(tmp_path)
@@ -112,7 +112,7 @@ def test_the_page_tells_what_the_library_finds_with_the_pages_command(
     assert "--mu-s 0.9 --mu-k 0.8" in commands["mu_k comes back"]
 
 
-def test_the_row_moves_and_its_springs_push_as_the_library_says(page, file):
+def test_the_row_has_the_displacements_and_forces_of_the_library(page, file):
     run = simulate(Chain.from_slider(theta=0.9), until="global slip")
     slip = slip_table(run).query("counted").iloc[-3]
     open_explorer(page, file)
@@ -132,7 +132,7 @@ def test_the_row_moves_and_its_springs_push_as_the_library_says(page, file):
         assert page.evaluate(f"{frame}.modes.some(Boolean)") == (share < 1)
 
 
-def test_an_event_is_a_film_of_three_seconds_that_stops_at_its_end(page, file):
+def test_an_event_plays_for_three_seconds_and_stops_at_its_end(page, file):
     open_explorer(page, file)
     page.prefer(prefers_reduced_motion="no-preference")
     page.evaluate("goToStep(1)")
@@ -176,9 +176,7 @@ def test_the_keyboard_reaches_the_six_steps_and_every_event(page, file):
         assert page.evaluate("Boolean(state.playing)") == is_playing
 
 
-def test_a_click_on_an_event_opens_it_and_one_beside_events_goes_to_that_time(
-    page, file
-):
+def test_a_click_opens_the_nearest_event_or_goes_to_that_time(page, file):
     open_explorer(page, file)
     for event, place in {
         4: "'load', chart.time.x(run.events[4].onset) + 9",
@@ -201,7 +199,7 @@ def test_a_click_on_an_event_opens_it_and_one_beside_events_goes_to_that_time(
         ({"n_blocks": 25, "theta": -0.3, "mu_s": 1.1, "mu_k": 0.2}, False),
     ],
 )
-def test_from_where_the_library_calls_a_run_unpredictable_the_page_is_grey(
+def test_a_run_is_grey_where_the_library_cannot_predict_it(
     page, file, setting, is_grey
 ):
     """Also while a slider is held."""
@@ -223,7 +221,7 @@ def test_from_where_the_library_calls_a_run_unpredictable_the_page_is_grey(
     assert is_grey == (answer == "lost") == ("one draw" in trust)
 
 
-def test_the_steps_tell_the_numbers_of_the_tables(page, file):
+def test_the_steps_have_the_numbers_of_the_tables(page, file):
     """Words of the event that is shown follow it."""
     open_explorer(page, file)
     text = " ".join(
@@ -247,7 +245,7 @@ def test_the_steps_tell_the_numbers_of_the_tables(page, file):
     assert f"{apparent_friction(run):.4f}" in text
 
 
-def test_the_mean_under_three_loadings_is_that_of_the_table(page, file):
+def test_the_means_of_three_loadings_are_those_of_the_table(page, file):
     table = made("balance").query("n_blocks == 10").set_index("scene").loc[SCENES]
     open_explorer(page, file)
     do(page, "goToStep(3)")
@@ -266,7 +264,7 @@ def test_the_mean_under_three_loadings_is_that_of_the_table(page, file):
 
 
 @pytest.mark.parametrize("theta", [0, 0.9])
-def test_each_slip_has_the_reason_why_it_goes_no_farther(page, file, theta):
+def test_each_slip_has_the_reason_where_it_ends(page, file, theta):
     """Where the load has carried the friction, and what the next block bears."""
     run = simulate(Chain.from_slider(theta=theta), until="global slip")
     slips = slip_table(run)
@@ -310,7 +308,7 @@ def test_the_line_of_the_onset_stays_while_the_row_slips(page, file):
     assert page.evaluate("frameAt(state.time).load") < before[0]
 
 
-def test_a_state_has_an_address_that_opens_it(page, file):
+def test_the_address_restores_a_state(page, file):
     open_explorer(page, file)
     do(page, "goToStep(3)")
     do(page, "set('#theta', 0.4), set('#n_blocks', 7)")
@@ -339,7 +337,7 @@ def test_a_state_has_an_address_that_opens_it(page, file):
     assert page.evaluate("state.slider") == page.evaluate("STEPS[0].scene.slider")
 
 
-def test_a_key_that_comes_before_the_run_of_a_step_waits_for_it(page, file):
+def test_a_key_pressed_before_the_run_is_there_waits_for_it(page, file):
     open_explorer(page, file)
     do(page, "goToStep(2)")
     shown = page.evaluate("state.event")
@@ -349,7 +347,7 @@ def test_a_key_that_comes_before_the_run_of_a_step_waits_for_it(page, file):
 
 
 @pytest.mark.parametrize("part", ["bars", "frames", "line", "blocks"])
-def test_a_word_singles_out_what_it_names(page, file, part):
+def test_a_word_highlights_its_part_of_the_picture(page, file, part):
     open_explorer(page, file)
     do(page, "goToStep(2)")
     before = page.evaluate("element('row').toDataURL()")
@@ -367,7 +365,7 @@ def test_the_picture_in_readme_was_drawn_from_this_page():
     assert len(png) < MOST_BYTES
 
 
-def test_the_page_is_one_small_file_that_asks_the_network_for_nothing(page, file):
+def test_the_page_is_one_small_file_without_network_requests(page, file):
     open_explorer(page, file)
     assert file.stat().st_size < MOST_BYTES
     assert page.complaints == []
@@ -375,7 +373,7 @@ def test_the_page_is_one_small_file_that_asks_the_network_for_nothing(page, file
     assert asked == {file.as_uri()}
 
 
-def test_a_finger_meets_every_control_and_the_sliders_cover_none(page, file):
+def test_every_control_is_large_enough_and_not_covered(page, file):
     open_explorer(page, file)
     page.evaluate("document.querySelectorAll('details').forEach(d => d.open = true)")
     for size in (LAPTOP, PHONE, ZOOMED, LYING):
@@ -421,7 +419,7 @@ DRAG = """(async () => {
 
 
 @pytest.mark.parametrize("size", [LAPTOP, PHONE])
-def test_nothing_jumps_between_steps_and_in_a_drag(page, file, size):
+def test_the_layout_does_not_shift_between_steps_or_in_a_drag(page, file, size):
     open_explorer(page, file, *size)
     page.evaluate(WATCH_SHIFTS)
     for step in range(1, 7):
@@ -435,7 +433,7 @@ def test_nothing_jumps_between_steps_and_in_a_drag(page, file, size):
         assert page.evaluate("document.documentElement.scrollHeight") <= size[1]
 
 
-def test_a_reader_who_listens_hears_words_when_a_slider_is_let_go(page, file):
+def test_screen_readers_announce_a_slider_when_it_is_released(page, file):
     open_explorer(page, file)
     live = "['answers', 'readout', 'step'].map(id => element(id).getAttribute('aria-live'))"
     page.evaluate("setSlider('theta', 0.2), solve(true)")
@@ -444,7 +442,7 @@ def test_a_reader_who_listens_hears_words_when_a_slider_is_let_go(page, file):
     assert page.evaluate(live) == ["polite"] * 3
 
 
-def test_paper_has_the_colours_of_the_light_page(page, file):
+def test_printing_uses_the_light_colours(page, file):
     open_explorer(page, file)
     page.prefer(prefers_color_scheme="dark")
     dark = page.evaluate("readPalette(), palette.paper")
@@ -480,7 +478,7 @@ CONTRASTS = """(() => {
 })()"""
 
 
-def test_the_contrast_is_that_of_wcag_aa_and_every_control_has_a_name(page, file):
+def test_contrasts_meet_wcag_aa_and_every_control_has_a_name(page, file):
     open_explorer(page, file)
     for scheme in ("light", "dark"):
         page.prefer(prefers_color_scheme=scheme)
@@ -515,8 +513,8 @@ SIDE_BY_SIDE = [
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_a_colour_means_the_same_as_in_the_figures_and_no_other(scheme):
-    sheet = (SOURCE / "explorer.css").read_text(encoding="utf-8")
+def test_colours_are_those_of_the_figures_and_differ(scheme):
+    sheet = (SOURCE / "page.css").read_text(encoding="utf-8")
     light, dark = (
         dict(re.findall(r"--(\w+): (#\w+);", block))
         for block in re.findall(r":root[^{]*{([^}]*)}", sheet)[:2]

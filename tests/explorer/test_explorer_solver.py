@@ -51,7 +51,7 @@ def first_transitions(slider):
         return error.run
 
 
-def test_random_sliders_and_those_that_are_called_proved_move_as_in_the_kernel(page):
+def test_random_and_proved_sliders_move_as_in_the_library(page):
     rng = np.random.default_rng(2010)
     random = [random_slider(rng) for _ in range(50)]
     proved = [proved_slider(values) for values in CONFIG["horizon"]["proved"].values()]

@@ -15,12 +15,12 @@ PICTURES = pictures()
 
 
 @pytest.mark.parametrize("file", codecheck.manifest(ROOT))
-def test_a_table_or_figure_is_the_golden_one(file):
+def test_a_table_or_figure_equals_the_golden_one(file):
     assert codecheck.difference(ROOT / file, GOLDEN / Path(file).name) == ""
 
 
 @pytest.mark.parametrize("path", PICTURES, ids=lambda path: path.stem)
-def test_a_small_picture_is_the_golden_one(path, tmp_path):
+def test_a_small_picture_equals_the_golden_one(path, tmp_path):
     drawn = tmp_path / path.name
     write_picture(drawn, PICTURES[path])
     assert codecheck.difference(drawn, path) == ""
@@ -37,7 +37,7 @@ TIMES = re.compile(r"[\d.]+ [µm]s")
 
 
 @pytest.mark.parametrize("name", BUILT)
-def test_what_is_read_without_a_build_says_what_the_build_says(name):
+def test_committed_documents_are_those_of_the_build(name):
     built = RESULTS / name
     committed = ROOT / BUILT[name]
     if name.endswith(".pdf"):

@@ -18,7 +18,7 @@ LEAST_CONTRAST = 4.5  # of words with white (WCAG)
 @pytest.mark.parametrize(
     ("read", "name"), [(committed, "work_precision_full"), (made, "work_precision")]
 )
-def test_every_method_that_comes_as_close_as_the_exact_solver_takes_longer(read, name):
+def test_every_method_as_accurate_as_the_exact_solver_is_slower(read, name):
     table = read(name)
     assert set(table["scene"]) == {"uniform"}
     is_right = table["transitions_right"].eq(table["transitions_true"])

@@ -36,7 +36,7 @@ def write() -> bytes:
     return Path("paper.pdf").read_bytes()
 
 
-def test_the_article_has_seven_full_pages_at_most_in_the_fonts_of_typst_and_matplotlib():
+def test_the_article_has_at_most_seven_full_pages_in_known_fonts():
     article = ROOT / "results/paper.pdf"
     pages = pages_of(article.read_bytes())
     assert len(pages) <= MOST_PAGES
@@ -53,7 +53,7 @@ def test_the_article_has_seven_full_pages_at_most_in_the_fonts_of_typst_and_matp
     ), fonts
 
 
-def test_the_same_results_give_the_same_bytes_and_others_another_number(here):
+def test_equal_results_give_equal_bytes_and_others_do_not(here):
     assert write() == (ROOT / "results/paper.pdf").read_bytes()
     table = pd.read_csv("results/tables/reproduction.csv")
     table.replace({"reproduced": {56: 57}}).to_csv(
@@ -62,7 +62,7 @@ def test_the_same_results_give_the_same_bytes_and_others_another_number(here):
     assert "of the 57 events are short" in " ".join(pages_of(write()))
 
 
-def test_a_row_or_file_that_is_missing_stops_the_build_in_one_line(here):
+def test_a_missing_row_or_file_stops_the_build_in_one_line(here):
     table = pd.read_csv("results/tables/certificates.csv")
     table[table["chain"] != "uniform"].to_csv(
         "results/tables/certificates.csv", index=False
@@ -77,7 +77,7 @@ def test_a_row_or_file_that_is_missing_stops_the_build_in_one_line(here):
         )
 
 
-def test_a_finding_that_its_table_no_longer_bears_out_stops_the_build(here):
+def test_a_finding_that_a_table_contradicts_stops_the_build(here):
     table = pd.read_csv("results/tables/noise_differences.csv")
     table.replace({"verdict": {"different": "same"}}).to_csv(
         "results/tables/noise_differences.csv", index=False
@@ -114,6 +114,6 @@ def typed(text: str) -> list[str]:
     return [line for line in text.splitlines() if re.search(r"[0-9]", line)]
 
 
-def test_no_number_is_typed_and_one_would_be_seen():
+def test_the_article_has_no_typed_number_and_one_would_be_seen():
     assert typed((SOURCE / "paper.typ").read_text(encoding="utf-8")) == []
     assert typed('Of #num("slips", "n", 0) events (Figs. 10 to 13) 6 are counted.')

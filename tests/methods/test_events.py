@@ -39,9 +39,7 @@ def needs(package: str) -> pytest.MarkDecorator:
         pytest.param(solve_cvode, 1e-10, id="CVODE", marks=needs("sksundae")),
     ],
 )
-def test_a_method_makes_every_transition_of_the_first_global_slip(
-    uniform, solve, setting
-):
+def test_a_method_is_right_up_to_the_first_global_slip(uniform, solve, setting):
     result = solve(uniform, 10.0, setting, "global slip")
     found = compare(result.run, solution("uniform").until_global_slip())
     assert found.transitions_right == found.transitions_found == FIRST_SLIP
@@ -50,13 +48,13 @@ def test_a_method_makes_every_transition_of_the_first_global_slip(
 
 
 @needs("heyoka")
-def test_heyoka_makes_every_transition_of_ten_seconds_at_its_default_tolerance(uniform):
+def test_heyoka_is_right_for_ten_seconds_by_default(uniform):
     found = compare(solve_heyoka(uniform, 10.0, 0.0).run, solution("uniform"))
     assert found.transitions_right == found.transitions_found == found.transitions_true
     assert found.time_error < ROUNDING_GROWN
 
 
-def test_blocks_that_stop_at_the_same_instant_to_rounding_both_stop():
+def test_blocks_that_stop_at_the_same_instant_both_stop():
     motion = EventMotion(Chain.from_slider(n_blocks=3), 1.0, None)
     motion.put([1, 1, 0], [1.0, 0.5, 0.0], [1e-18, -1e-18, 0.0])
     assert not motion.switch(0, 2.0)

@@ -69,7 +69,7 @@ def without_short_stops(transitions) -> list[tuple[int, int, float]]:
 
 
 @pytest.mark.parametrize(("name", "n_blocks", "theta", "mu_k", "end"), CASES)
-def test_a_method_makes_the_transitions_of_the_exact_solver_and_its_intervals_are_its_times(
+def test_a_method_agrees_with_the_exact_solver_in_transitions(
     name, n_blocks, theta, mu_k, end
 ):
     chain = Chain.from_slider(n_blocks=n_blocks, theta=theta, mu_k=mu_k)

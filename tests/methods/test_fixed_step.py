@@ -51,7 +51,7 @@ def load_error(run: Run, exact: Run) -> float:
     return float(np.sqrt(np.mean(difference**2)))
 
 
-def test_beyond_the_limit_a_run_ends_with_the_last_finite_transitions(chain):
+def test_a_diverging_run_ends_with_its_last_finite_transition(chain):
     step = 1.5 * 2.0 / highest_frequency(chain)
     with pytest.raises(DivergedError, match="the numbers overflow at") as diverged:
         METHODS["leapfrog"].solve(chain, 10.0, step, None)
@@ -62,7 +62,7 @@ def test_beyond_the_limit_a_run_ends_with_the_last_finite_transitions(chain):
     np.testing.assert_allclose(np.cumsum(run.intervals), ends, rtol=CLOCK_ROUNDING)
 
 
-def test_a_record_gets_more_room_and_a_run_ends_at_the_limit_of_transitions():
+def test_a_full_record_grows_and_a_run_ends_at_the_limit():
     chain = Chain.from_slider(n_blocks=3, drive_velocity=1e-2)
     with pytest.raises(
         TransitionLimitError, match=f"max_transitions = {2 * FIRST_ROOM} reached"
@@ -75,7 +75,7 @@ def test_a_record_gets_more_room_and_a_run_ends_at_the_limit_of_transitions():
 
 
 @pytest.mark.parametrize("name", ORDERS)
-def test_the_order_with_transitions_depends_on_how_they_are_located(five_slips, name):
+def test_the_order_depends_on_how_transitions_are_located(five_slips, name):
     order, coarse, fine = ORDERS[name]
 
     def error(step: float) -> float:
@@ -92,7 +92,7 @@ def test_the_order_with_transitions_depends_on_how_they_are_located(five_slips, 
     assert found == pytest.approx(order, abs=ORDER_TOLERANCE)
 
 
-def test_a_located_step_ends_at_the_first_of_two_roots_however_close():
+def test_a_step_ends_at_the_first_of_two_close_roots():
     """Also between positive ends, as theirs is where a velocity falls below zero and
     rises again within a step; none is found where there is none."""
     random = np.random.default_rng(1)
@@ -108,7 +108,7 @@ def test_a_located_step_ends_at_the_first_of_two_roots_however_close():
         assert runge_kutta.cubic_root(above, 1.0) == runge_kutta.NEVER
 
 
-def test_a_block_that_starts_from_rest_is_not_taken_for_one_that_stops():
+def test_a_root_at_the_start_counts_only_if_the_function_falls():
     rises_and_falls = np.array([0.0, 0.4, -1.0, 0.0])
     assert runge_kutta.cubic_root(rises_and_falls, 1.0) == pytest.approx(0.4)
     assert runge_kutta.cubic_root(rises_and_falls, 0.3) == runge_kutta.NEVER

@@ -40,9 +40,7 @@ def test_energy_grows_beyond_the_limit_and_not_below_it(name):
         ("moreau_jean_one", 0.1, 200),
     ],
 )
-def test_a_step_changes_the_energy_of_the_fastest_mode_by_the_closed_form(
-    free, name, z, n_steps
-):
+def test_a_step_changes_energy_by_the_factor_of_theory(free, name, z, n_steps):
     step = z / highest_frequency(free)
     mode = highest_mode(free)
     smooth = SMOOTH[name]

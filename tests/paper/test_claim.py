@@ -44,14 +44,12 @@ NAN = float("nan")
         (None, 1000, 400, UNDECIDED),
     ],
 )
-def test_the_run_decides_whether_a_claim_holds_and_the_ensembles_for_which_inputs(
-    holds, noise, digits, verdict
-):
+def test_the_verdict_combines_the_run_and_both_ensembles(holds, noise, digits, verdict):
     shares = {"noise": Share(noise, 1000), "digits": Share(digits, 400)}
     assert Finding(1.0, holds, shares=shares).verdict == verdict
 
 
-def test_draws_are_counted_without_the_run_and_without_a_global_slip_a_claim_does_not_hold():
+def test_draws_are_counted_and_fail_without_a_global_slip():
     def found(noise: list[float], digits: list[float]) -> Finding:
         members = [
             pd.DataFrame({"scene": "s", "draw": range(len(x)), "x": x})
@@ -74,9 +72,7 @@ def test_draws_are_counted_without_the_run_and_without_a_global_slip_a_claim_doe
         (["same", "undecided", "same"], UNDECIDED),
     ],
 )
-def test_mu_sapp_is_the_same_if_the_interval_of_every_difference_says_so(
-    verdicts, verdict
-):
+def test_mu_sapp_is_the_same_if_every_interval_says_so(verdicts, verdict):
     found = pd.DataFrame(
         {"quantity": "mu_sapp", "difference": 0.0, "verdict": verdicts}
     )
@@ -91,7 +87,7 @@ def test_mu_sapp_is_the_same_if_the_interval_of_every_difference_says_so(
     ).verdict == (verdict)
 
 
-def test_the_values_of_three_runs_agree_to_a_unit_of_the_last_digit():
+def test_three_mu_sapp_agree_to_one_unit_of_the_last_digit():
     """In the run they are 0.011 apart, and in the draw of each ensemble 0.009."""
     run = [0.49, 0.495, 0.501]
     draw = [0.49, 0.495, 0.499]
@@ -114,16 +110,12 @@ def test_the_values_of_three_runs_agree_to_a_unit_of_the_last_digit():
         ([2, 1, 4, 3, 5, 6], UNDECIDED),  # 2.8 and 11.7 %
     ],
 )
-def test_lengths_tend_to_increase_if_they_do_so_without_the_global_slip_too(
-    front, verdict
-):
+def test_lengths_increase_if_they_do_without_the_global_slip_too(front, verdict):
     assert lengths_tend_to_increase(slips_of(front=front)).verdict == verdict
 
 
 @pytest.mark.parametrize(("mu_sapp", "verdict"), [(0.6951, HOLDS), (0.6949, UNDECIDED)])
-def test_a_chain_without_waves_can_confirm_the_condition_on_waves_but_not_refute_it(
-    mu_sapp, verdict
-):
+def test_a_chain_without_waves_confirms_or_leaves_undecided(mu_sapp, verdict):
     assert waves(overdamped(mu_sapp)).verdict == verdict
 
 
@@ -131,9 +123,7 @@ def test_a_chain_without_waves_can_confirm_the_condition_on_waves_but_not_refute
     ("low", "high", "verdict"),
     [(3, 3, HOLDS), (0, 3, UNDECIDED), (0, 0, FAILS)],
 )
-def test_count_grows_with_theta_if_the_interval_of_every_difference_is_above_zero(
-    low, high, verdict
-):
+def test_the_count_grows_if_every_interval_is_above_zero(low, high, verdict):
     counts = pd.DataFrame({"scene": SCENES, "events_counted": [6, 9, 14]})
     members = counts.merge(pd.DataFrame({"draw": range(401)}), how="cross")
     pairs = [("fig10", "fig11", 1, 1), ("fig12", "fig10", low, high)]
@@ -144,7 +134,7 @@ def test_count_grows_with_theta_if_the_interval_of_every_difference_is_above_zer
 
 
 @pytest.mark.parametrize(("last", "holds"), [(3.1, True), (3.0, False)])
-def test_growth_falls_with_theta_if_it_is_less_for_each_next_loading(last, holds):
+def test_growth_falls_with_theta_if_every_loading_has_less(last, holds):
     tables = {
         f"{scene}_slips": pd.DataFrame(
             {"load_before_N": [1.0, load], "front": [1, 2], "counted": True}
@@ -154,7 +144,7 @@ def test_growth_falls_with_theta_if_it_is_less_for_each_next_loading(last, holds
     assert growth_falls_with_theta(tables).holds is holds
 
 
-def test_a_run_without_the_event_of_a_claim_contradicts_it_and_a_missing_number_is_one_clear_line():
+def test_a_missing_event_contradicts_and_a_missing_number_raises():
     def no_event(_):
         raise IndexError
 
@@ -174,7 +164,7 @@ def test_a_claim_without_a_function_is_one_clear_line(monkeypatch):
         evaluate({})
 
 
-def test_differences_are_claims_that_are_new_gone_or_of_another_verdict():
+def test_differences_are_new_missing_and_changed_claims():
     def table(**verdicts):
         return pd.DataFrame(verdicts.items(), columns=["claim", "verdict"])
 

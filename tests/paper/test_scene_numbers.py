@@ -12,7 +12,7 @@ from precursors.model.statics import maximal_strain_positions
 ROUNDING = 1e-12
 
 
-def test_the_residual_strain_of_eq_12_is_the_largest():
+def test_the_residual_strain_of_eq_12_is_one():
     chain = Chain.from_slider(theta="5/6")
     run = simulate(chain, 0.001, start_positions=maximal_strain_positions(chain))
     assert residual_strain(run) == pytest.approx(1.0, rel=ROUNDING)

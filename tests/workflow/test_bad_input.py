@@ -46,9 +46,7 @@ def test_a_wrong_configuration_is_refused_in_one_line(finished, old, new, words)
     assert finished.results() == before
 
 
-def test_a_python_behind_a_space_runs_jobs_with_loads_that_lie_beside_their_configuration(
-    workspace, monkeypatch
-):
+def test_paths_with_spaces_and_loads_beside_the_config_work(workspace, monkeypatch):
     """And with values of the command line."""
     place = workspace.path / "Büro Müller"
     place.mkdir()

@@ -11,7 +11,7 @@ from matplotlib import image
 from places import ROOT
 
 
-def test_every_file_that_is_compared_has_a_comment_and_is_made(untouched):
+def test_every_compared_file_has_a_comment_and_is_made(untouched):
     text = (ROOT / "codecheck.yml").read_text(encoding="utf-8")
     manifest = yaml.safe_load(text)["manifest"]
     files = {entry["file"] for entry in manifest if entry["comment"]}

@@ -22,7 +22,7 @@ def scene(name: str, line: str) -> str:
     return f'  {name}:\n    title: nearly all at the leading edge\n    theta: "9/10"\n    {line}\n'
 
 
-def test_a_dry_run_lists_every_job_of_the_paper_and_writes_nothing(untouched):
+def test_a_dry_run_lists_the_papers_jobs_and_writes_nothing(untouched):
     workspace, outcome = untouched
     assert outcome.code == 0, outcome.text
     assert outcome.jobs >= PAPERS
@@ -50,7 +50,7 @@ def test_the_arrows_in_readme_are_those_of_the_rule_graph(untouched):
     assert arrows - real == set()
 
 
-def test_words_format_and_touch_run_nothing_again(finished):
+def test_comments_format_and_touch_run_nothing_again(finished):
     before = finished.results()
     for file in [
         *finished.path.glob("src/**/*.py"),
@@ -90,9 +90,7 @@ def test_results_that_were_deleted_are_made_again(finished):
         ("precursors/solver/kernel/events", PAPERS | {"run_noise"}, set()),
     ],
 )
-def test_an_edit_of_a_module_runs_what_computes_with_it_and_nothing_else(
-    finished, module, run, left
-):
+def test_an_edit_of_a_module_runs_only_jobs_that_import_it(finished, module, run, left):
     finished.edit(f"src/{module}.py", "", CODE)
     jobs = finished.would_run()
     assert run <= jobs
@@ -115,9 +113,7 @@ def test_an_edit_of_a_module_runs_what_computes_with_it_and_nothing_else(
         ),
     ],
 )
-def test_an_edit_of_the_paper_and_of_the_configuration_runs_what_reads_it(
-    finished, old, new, jobs
-):
+def test_an_edit_of_paper_or_configuration_runs_what_reads_it(finished, old, new, jobs):
     finished.edit("paper/paper.typ", "", "\n// edited\n")
     finished.edit("config.yaml", old, new)
     assert finished.would_run() == jobs | PAPER
@@ -141,7 +137,7 @@ def test_larger_studies_are_an_overlay_of_the_configuration(finished):
     assert not {"simulate_scene fig10", "mu_sapp"} & outcome.jobs
 
 
-def test_a_configuration_without_the_papers_scenes_has_no_claims_and_no_paper(
+def test_without_the_papers_scenes_there_is_no_paper(
     workspace,
 ):
     workspace.edit("config.yaml", "  fig12:\n    title", "  mine:\n    title")
@@ -153,7 +149,7 @@ def test_a_configuration_without_the_papers_scenes_has_no_claims_and_no_paper(
     assert not {"judge_claims", "write_paper"} & jobs
 
 
-def test_an_interrupted_study_goes_on_where_it_was_and_an_edit_renews_what_it_touches(
+def test_an_interrupted_study_continues_and_an_edit_reruns_it(
     finished,
 ):
     digits = "digits_members"

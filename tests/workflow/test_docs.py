@@ -75,7 +75,7 @@ def command(section):
     return found[1:]
 
 
-def test_the_scene_and_the_study_shown_are_made(documented):
+def test_the_example_scene_and_study_are_built(documented):
     planned = documented.run("-n", *command("A scene"))
     assert planned.jobs == {"simulate_scene steep", "draw_scene steep"}, planned.text
     assert "draw_durations" in documented.would_run()
@@ -108,7 +108,7 @@ print(*(row["color"] for name, row in ROWS.items() if name != "scipy_rk23"))
 """
 
 
-def test_the_test_shown_passes_model_and_method_give_what_is_shown_and_this_has_a_colour_of_its_own(
+def test_the_example_model_and_method_print_what_docs_show(
     documented,
 ):
     found = [block for of in ("A model", "A method") for block in blocks(of)]
@@ -133,7 +133,7 @@ def test_the_test_shown_passes_model_and_method_give_what_is_shown_and_this_has_
     assert done.stderr == ""
 
 
-def test_the_claim_shown_is_judged_and_its_number_set_in_the_paper(
+def test_the_example_claim_is_evaluated_and_set_in_the_paper(
     documented, tmp_path, monkeypatch
 ):
     texts = {language: code for language, name, code in blocks(CLAIM) if not name}
@@ -161,7 +161,7 @@ def test_the_claim_shown_is_judged_and_its_number_set_in_the_paper(
     assert page.startswith(f"At {load:.1f} N")
 
 
-def test_the_workflow_shown_uses_this_one_as_a_module(documented):
+def test_the_example_workflow_uses_this_one_as_a_module(documented):
     outer = type(documented)(documented.path / "elsewhere", "../src")
     outcome = outer.run("-c1")
     assert outcome.code == 0, outcome.text
@@ -171,7 +171,7 @@ def test_the_workflow_shown_uses_this_one_as_a_module(documented):
     ) == pytest.approx(2.8)
 
 
-def test_what_the_page_on_changes_shows_works(workspace, monkeypatch, capsys):
+def test_the_examples_of_the_page_on_changes_work(workspace, monkeypatch, capsys):
     found: dict[str, list[str]] = {}
     for language, code in BLOCK.findall(
         (DOCS / "customise.md").read_text(encoding="utf-8")
@@ -207,7 +207,7 @@ def test_an_example_prints_what_it_says(script, tmp_path, monkeypatch, capsys):
         assert (tmp_path / path).stat().st_size > 10_000
 
 
-def test_every_page_is_rendered_with_its_title_and_links_that_work(tmp_path):
+def test_every_page_is_rendered_with_title_and_working_links(tmp_path):
     from pdoc import pdoc, render  # slow
 
     render.configure(docformat="numpy")

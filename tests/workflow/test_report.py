@@ -12,7 +12,7 @@ def results_in(report):
     return json.loads(found)
 
 
-def test_every_figure_has_a_caption_and_a_label_of_its_own_and_the_main_tables_are_there(
+def test_the_report_has_all_figures_with_captions_and_the_tables(
     finished,
 ):
     style = "workflow/report/report.css"

@@ -53,7 +53,7 @@ def test_the_exponents_are_those_of_the_linearised_motion(theta):
     assert exponent["uncertainty_per_s"] < exponent["exponent_per_s"]
 
 
-def test_the_exponent_is_a_rate_and_does_not_depend_on_the_distance(monkeypatch):
+def test_the_exponent_scales_with_time_and_not_with_distance(monkeypatch):
     """Four times the mass, half the speed: the same motion, twice as slow, to the last
     digit."""
     chain = SLIDER(theta="5/6", drive_velocity=1e-3)
@@ -71,9 +71,7 @@ def test_the_exponent_is_a_rate_and_does_not_depend_on_the_distance(monkeypatch)
 
 
 @pytest.mark.parametrize(("n", "used"), [(21, 20), (40, 20), (41, 40), (400, 380)])
-def test_the_interval_of_an_exponent_is_that_of_the_mean_of_20_stretches(
-    n, used, exponent_of
-):
+def test_the_uncertainty_is_that_of_the_mean_of_20_stretches(n, used, exponent_of):
     """Of events that each last 0.3 s and 7 transitions, after a tenth that is left
     out."""
     n_all = n + round(n * lyapunov.TRANSIENT / (1 - lyapunov.TRANSIENT))
@@ -95,7 +93,7 @@ def test_a_run_of_one_block_or_of_few_events_has_no_exponent(exponent_of):
         exponent_of(np.arange(22), np.arange(22.0), np.arange(22.0))
 
 
-def test_the_tables_hold_what_is_proved_and_what_the_solver_gets_right():
+def test_the_tables_compare_the_solver_with_the_proof():
     chain = ExactChain.from_slider(n_blocks=2, theta="1/2", drive_velocity="1e-3")
     certificate = certify(chain, 0.5)
     n = len(certificate.transitions)
@@ -131,7 +129,7 @@ PICTURES = {"horizon": predicted_errors}
 
 
 @pytest.mark.parametrize("name", CHAINS)
-def test_the_committed_certificates_are_about_the_chains_of_the_configuration(
+def test_committed_certificates_belong_to_the_configured_chains(
     name,
 ):
     certificate = Certificate.load(CERTIFICATES / f"{name}.json.gz")

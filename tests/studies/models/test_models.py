@@ -132,7 +132,7 @@ def test_cascades_agree_with_dense_matrices_that_balance_energy(
 # Two uneven chains in which blocks join, turn round and are put out, those that began
 # the slip among them.
 @pytest.mark.parametrize(("draw", "mu_k"), [(72, 0.45), (88, 0.6)])
-def test_so_do_cascades_in_which_blocks_turn_round(draw, mu_k):
+def test_cascades_with_blocks_that_turn_round_agree_as_well(draw, mu_k):
     chain = SLIDER(n_blocks=6, mu_k=mu_k, drive_stiffness=8e6)
     uneven = np.random.default_rng(draw).uniform(0.1, 1.9, 6)
     assert_dense(replace(chain, weights=chain.weights * uneven), ENERGY_CONSERVED)
@@ -160,7 +160,7 @@ def assert_dense(chain: Chain, overshoot: float) -> None:
 
 
 @pytest.mark.parametrize("theta", THETAS)
-def test_the_front_law_comes_closer_to_the_exact_chain_with_more_blocks(theta):
+def test_the_front_law_is_closer_to_the_chain_with_more_blocks(theta):
     errors = []
     for n_blocks in (10, 40):
         chain = SLIDER(n_blocks=n_blocks, theta=theta)
@@ -185,7 +185,7 @@ def test_a_chain_that_no_cascade_fits_gets_one_clear_line(call, message):
         call()
 
 
-def test_a_limit_that_is_met_is_said(monkeypatch):
+def test_a_cascade_that_reaches_a_limit_raises(monkeypatch):
     needed = len(quasistatic_slips(SLIDER()))
     monkeypatch.setattr(quasistatic, "MAX_EVENTS", needed - 1)
     with pytest.raises(RuntimeError, match=f"no global slip within {needed - 1} event"):
@@ -195,7 +195,7 @@ def test_a_limit_that_is_met_is_said(monkeypatch):
         quasistatic_slips(SLIDER())
 
 
-def test_a_run_without_a_global_slip_has_no_answer_to_what_asks_for_it(
+def test_without_a_global_slip_answers_that_need_it_are_nan(
     monkeypatch,
 ):
     monkeypatch.setattr("precursors.model.statics.LIMIT", 0.1)

@@ -25,7 +25,7 @@ def test_every_draw_prints_as_the_paper_does():
     assert draws.groupby("draw")["drive_stiffness"].nunique().eq(1).all()
 
 
-def test_agreement_by_hand():
+def test_shares_of_agreement_are_those_counted_by_hand():
     """Draw 4 has no global slip in one scene, draw 5 in none: they do not agree. Draw 1
     has all numbers."""
     mu = {

@@ -15,7 +15,7 @@ def rows_of(theta, *steps) -> list:
 
 
 @pytest.mark.parametrize(("theta", "right"), [(0.0, 216), ("5/6", 176)])
-def test_a_sweep_gives_the_papers_numbers_where_the_transitions_are_right(theta, right):
+def test_rk4_has_the_papers_count_if_its_transitions_are_right(theta, right):
     """Known: at theta = 5/6 and 1e-9 s it is right in 176 of 338 transitions, at 0 in
     all 216."""
     exact, coarse, fine = rows_of(theta, 1e-5, 1e-9)
