@@ -1,4 +1,4 @@
-"""The check of the claims names a result that was falsified."""
+"""The check of the claims reports changed verdicts and changed files."""
 
 import json
 import os
@@ -42,7 +42,7 @@ def test_the_check_prints_all_claims_and_fails_on_a_new_verdict(tmp_path, capsys
 
 @pytest.fixture
 def copy(tmp_path):
-    """A copy of the tables and of a figure, with where they come from."""
+    """A copy of the tables and of a figure, with their provenance."""
     shutil.copytree(RESULTS / "tables", tmp_path / "tables")
     (tmp_path / "figures").mkdir()
     shutil.copy2(RESULTS / "figures/fig10.svg", tmp_path / "figures")
@@ -54,10 +54,10 @@ def test_the_check_names_a_changed_table_even_if_its_time_is_old(copy):
     check_claims.main(copy)
     table = copy / "tables/measures.csv"
     times = table.stat().st_atime_ns, table.stat().st_mtime_ns
-    for kept in (True, False):
+    for has_old_time in (True, False):
         with table.open("a") as file:
             file.write("edited\n")
-        if kept:
+        if has_old_time:
             os.utime(table, ns=times)
         with pytest.raises(SystemExit) as error:
             check_claims.main(copy)

@@ -1,5 +1,5 @@
-"""Tables and figures that the workflow wrote to results are those in this directory, and
-small pictures those beside their tests (`make golden` replaces them)."""
+"""Tables and figures of the build equal those in this directory, and small pictures equal
+those beside their tests; `make golden` replaces both."""
 
 import re
 from pathlib import Path
@@ -30,9 +30,9 @@ def test_every_check_of_eq_15_holds():
     assert pd.read_csv(RESULTS / "tables/eq15.csv")["holds"].eq(True).all()
 
 
-# Draws near a jump, and means of chaotic motion, fall otherwise on other processors.
+# Samples near a discontinuity, and means of chaotic motion, differ between processors.
 DATA = re.compile(r'(id="data">).*?(?=</script>)', re.DOTALL)
-# Each build measures these anew.
+# Computing times differ in each build.
 TIMES = re.compile(r"[\d.]+ [µm]s")
 
 

@@ -1,5 +1,4 @@
-"""The article: the same bytes from the same results, and no number that no table
-has."""
+"""The article depends on the results only: all its numbers come from tables."""
 
 import re
 import shutil
@@ -21,7 +20,7 @@ LEAST_TEXT = 500  # characters of a page
 
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A directory with what the article is made of, to be changed."""
+    """A directory with copies of the results that the article cites."""
     for file in cited_results(SOURCE / "paper.typ"):
         (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(ROOT / file, tmp_path / file)
@@ -87,8 +86,8 @@ def test_a_finding_that_a_table_contradicts_stops_the_build(here):
     assert not Path("paper.pdf").exists()
 
 
-# What is no number of ours: comments, names, symbols, code, places in the original,
-# lengths.
+# Digits that are no results: in comments, names, symbols, code, references to the
+# original, and lengths.
 NO_NUMBERS = [
     r"(?m)//.*$",
     r'"[^"\n]*"',
@@ -105,8 +104,8 @@ CALL = r"#?[\w.-]+\([^()]*\)"
 
 
 def typed(text: str) -> list[str]:
-    """Lines with a digit, without the code, names, symbols and places in the original
-    of a document."""
+    """Lines of a document with a digit that is not in code, a name, a symbol or a
+    reference to the original."""
     for pattern in NO_NUMBERS:
         text = re.sub(pattern, " ", text)
     while re.search(CALL, text):

@@ -1,4 +1,4 @@
-"""Whole runs of fixed-step methods: orders with switching, limits, located zeros."""
+"""Runs of fixed-step methods: orders of accuracy, limits, and located roots."""
 
 import numpy as np
 import pytest
@@ -20,12 +20,12 @@ ORDERS = {
     ),
     "rk4_located": (4.0, 8e-7, 2e-7),
 }
-# Where a transition falls within a step is chance: an average over this many steps
-# leaves a few per cent.
+# The position of a transition within its step is random: averaged over this many steps, an
+# error of a few per cent remains.
 STEPS_IN_SAMPLE = 60
 ORDER_TOLERANCE = 0.15
-CLOCK_ROUNDING = 1e-9  # relative, of a clock of some 1e6 steps
-ROUNDING = 1e-12  # of a cubic of order one
+CLOCK_ROUNDING = 1e-9  # relative, of a sum of about 1e6 steps
+ROUNDING = 1e-12  # of a cubic with coefficients of order one
 FIVE_SLIPS = 1.25  # s; the first of theta = 0, with 30 transitions
 
 
@@ -40,8 +40,8 @@ def five_slips(chain: Chain) -> Run:
 
 
 def load_error(run: Run, exact: Run) -> float:
-    """Root mean square error of F_X at the transitions [N], of a run whose transitions
-    are the right ones."""
+    """Root mean square error of F_X at the transitions [N]; the transitions must be the
+    right ones."""
     assert (
         transitions_right(run, exact) == len(run.transitions) == len(exact.transitions)
     )
@@ -88,13 +88,13 @@ def test_the_order_depends_on_how_transitions_are_located(five_slips, name):
             np.sqrt(np.mean([load_error(run, five_slips) ** 2 for run in runs]))
         )
 
-    found = np.log(error(coarse) / error(fine)) / np.log(coarse / fine)
-    assert found == pytest.approx(order, abs=ORDER_TOLERANCE)
+    measured = np.log(error(coarse) / error(fine)) / np.log(coarse / fine)
+    assert measured == pytest.approx(order, abs=ORDER_TOLERANCE)
 
 
 def test_a_step_ends_at_the_first_of_two_close_roots():
-    """Also between positive ends, as theirs is where a velocity falls below zero and
-    rises again within a step; none is found where there is none."""
+    """The function is positive at both ends, as when a velocity falls below zero and
+    rises again within a step. A function without a root has none."""
     random = np.random.default_rng(1)
     for _ in range(1000):
         first = random.uniform(0.02, 0.9)
@@ -102,8 +102,8 @@ def test_a_step_ends_at_the_first_of_two_close_roots():
         polynomial = np.polynomial.Polynomial.fromroots([first, first + apart])
         polynomial *= np.polynomial.Polynomial([1.0, random.uniform(-0.9, 0.9)])
         c = polynomial.coef
-        found = runge_kutta.cubic_root(c, 1.0)
-        assert found == pytest.approx(first, abs=ROUNDING / apart)
+        root = runge_kutta.cubic_root(c, 1.0)
+        assert root == pytest.approx(first, abs=ROUNDING / apart)
         above = np.append(c[0] + apart**2, c[1:])
         assert runge_kutta.cubic_root(above, 1.0) == runge_kutta.NEVER
 

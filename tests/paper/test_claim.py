@@ -1,4 +1,4 @@
-"""A claim gets the verdict that the run and the ensembles around it give."""
+"""Verdicts on claims from the run and the ensembles around it."""
 
 from dataclasses import replace
 
@@ -50,7 +50,7 @@ def test_the_verdict_combines_the_run_and_both_ensembles(holds, noise, digits, v
 
 
 def test_draws_are_counted_and_fail_without_a_global_slip():
-    def found(noise: list[float], digits: list[float]) -> Finding:
+    def below_half(noise: list[float], digits: list[float]) -> Finding:
         members = [
             pd.DataFrame({"scene": "s", "draw": range(len(x)), "x": x})
             for x in (noise, digits)
@@ -58,10 +58,10 @@ def test_draws_are_counted_and_fail_without_a_global_slip():
         tables = dict(zip(("noise_members", "digits_members"), members, strict=True))
         return in_draws(tables, lambda runs: runs["x"], lambda x: x < 0.5)
 
-    finding = found([0.4, 0.4, 0.6], [0.4, 0.4, 0.4, NAN])
+    finding = below_half([0.4, 0.4, 0.6], [0.4, 0.4, 0.4, NAN])
     assert finding.holds
     assert finding.shares == {"noise": Share(1, 2), "digits": Share(2, 3)}
-    assert not found([NAN, 0.4], [NAN, 0.4]).holds
+    assert not below_half([NAN, 0.4], [NAN, 0.4]).holds
 
 
 @pytest.mark.parametrize(
@@ -73,22 +73,22 @@ def test_draws_are_counted_and_fail_without_a_global_slip():
     ],
 )
 def test_mu_sapp_is_the_same_if_every_interval_says_so(verdicts, verdict):
-    found = pd.DataFrame(
+    pairs = pd.DataFrame(
         {"quantity": "mu_sapp", "difference": 0.0, "verdict": verdicts}
     )
-    tables = {"noise_differences": found, **members_of(mu_sapp=0.5)}
+    tables = {"noise_differences": pairs, **members_of(mu_sapp=0.5)}
     finding = friction_independent_with_ten_blocks(tables)
     assert replace(finding, shares={}).verdict == verdict
     assert finding.note == "The values of the three runs agree: they differ by 0."
     coarse = pd.DataFrame({"n_blocks": [80], "verdict": "different", "difference": 1.0})
-    by_n = pd.concat([found.assign(n_blocks=160), coarse])
+    by_n = pd.concat([pairs.assign(n_blocks=160), coarse])
     assert friction_independent_of_loading(
         {"resolution_differences": by_n}
     ).verdict == (verdict)
 
 
 def test_three_mu_sapp_agree_to_one_unit_of_the_last_digit():
-    """In the run they are 0.011 apart, and in the draw of each ensemble 0.009."""
+    """They differ by 0.011 in the run, and by 0.009 in the draw of each ensemble."""
     run = [0.49, 0.495, 0.501]
     draw = [0.49, 0.495, 0.499]
     members = pd.concat(
@@ -106,7 +106,7 @@ def test_three_mu_sapp_agree_to_one_unit_of_the_last_digit():
 @pytest.mark.parametrize(
     ("front", "verdict"),
     [
-        ([1, 3, 2, 4, 5, 6], HOLDS),  # of all orders 0.8 and 4.2 % rise as much
+        ([1, 3, 2, 4, 5, 6], HOLDS),  # 0.8 and 4.2 % of all orders rise as much
         ([2, 1, 4, 3, 5, 6], UNDECIDED),  # 2.8 and 11.7 %
     ],
 )
@@ -168,9 +168,9 @@ def test_differences_are_new_missing_and_changed_claims():
     def table(**verdicts):
         return pd.DataFrame(verdicts.items(), columns=["claim", "verdict"])
 
-    found = table(a=HOLDS, b=HOLDS, c=EXACT)
+    evaluated = table(a=HOLDS, b=HOLDS, c=EXACT)
     expected = table(a=HOLDS, b=EXACT, d=EXACT)
-    assert differences(found, expected) == [
+    assert differences(evaluated, expected) == [
         "b: is holds, expected exact",
         "c: is exact, expected none",
         "d: is missing, expected exact",
@@ -178,8 +178,7 @@ def test_differences_are_new_missing_and_changed_claims():
 
 
 def slips_of(**columns) -> dict[str, pd.DataFrame]:
-    """The same slip table for each scene, ending with a global slip unless it is said
-    which are."""
+    """The same slip table for each scene; by default the last event is global."""
     table = pd.DataFrame(columns)
     if "is_global" not in table:
         table["is_global"] = table.index == len(table) - 1
@@ -201,13 +200,13 @@ def members_of(**columns) -> dict[str, pd.DataFrame]:
 
 
 def times(spread: float, *is_global: bool) -> dict[str, pd.DataFrame]:
-    """Events whose times vary by `spread`, standard deviation over mean."""
+    """Events whose intervals have this standard deviation over their mean."""
     onset = [0.0, 1.0 - spread, 2.0, 9.0][: len(is_global)]
     return slips_of(onset_s=onset, is_global=is_global)
 
 
 def grown(*speedup: float) -> dict[str, pd.DataFrame]:
-    """The run and one draw of each ensemble, which grow faster by so much."""
+    """The run and one draw of each ensemble with these values of `speedup`."""
     runs = pd.DataFrame({"scene": SCENES, "speedup": speedup}).merge(
         pd.DataFrame({"draw": (0, 1)}), how="cross"
     )

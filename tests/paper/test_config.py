@@ -1,5 +1,4 @@
-"""A wrong configuration is refused in one line: which value, where, and what it must
-be."""
+"""Errors in the configuration: one line says which value, where, and what it must be."""
 
 import copy
 import math
@@ -19,7 +18,7 @@ MISSING = object()
 STEEP = {"title": "steep", "theta": 0.9}
 
 
-# Key, value, and words that the line must hold.
+# Key, value, and words of the error message.
 MEASURED = {"title": "as measured", "weights": [30.0, 40.0, 50.0]}
 WRONG = [
     ("chain.youngs_modulus", "2.5e9", ["chain.youngs_modulus: '2.5e9' is not of type"]),
@@ -101,7 +100,7 @@ def changed(key, value):
 
 
 def leaves(value, where=()):
-    """Places of all numbers, texts and lists of a configuration."""
+    """Keys of all numbers, texts and lists of a configuration."""
     if isinstance(value, dict):
         return [
             leaf

@@ -1,5 +1,5 @@
-"""What a reading of the paper's words makes of a slip table, and which readings give the
-paper's numbers."""
+"""Numbers of a slip table under readings of the paper's words, and the readings that give
+the paper's numbers."""
 
 import pandas as pd
 import pytest
@@ -10,8 +10,8 @@ from precursors.analysis.summary import summary_of
 
 # One quotient of doubles.
 ROUNDING = 1e-15
-# Front, blocks that slid, most at once, load before and after, of five events of a
-# chain of three blocks.
+# Front, blocks that slid, most at the same time, and load before and after, for five
+# events of a chain of three blocks.
 EVENTS = pd.DataFrame(
     [
         (2, 2, 1, 9.0, 8.0),
@@ -108,6 +108,6 @@ def test_a_reading_without_a_global_slip_has_empty_numbers():
     ],
 )
 def test_a_reading_selects_global_and_short_events(reading, events, counted, mu_sapp):
-    found = summary_of(reading.read(EVENTS))
-    assert (found.events_to_global_slip, found.events_counted) == (events, counted)
-    assert found.mu_sapp == pytest.approx(mu_sapp, rel=ROUNDING)
+    summary = summary_of(reading.read(EVENTS))
+    assert (summary.events_to_global_slip, summary.events_counted) == (events, counted)
+    assert summary.mu_sapp == pytest.approx(mu_sapp, rel=ROUNDING)

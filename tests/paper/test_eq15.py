@@ -1,4 +1,4 @@
-"""Every check of Eq. 15 fails where the equation or the chain it is about is broken."""
+"""Every check of Eq. 15 fails if the equation or the chain is changed."""
 
 from dataclasses import replace
 
@@ -9,7 +9,7 @@ from maegawa2010.paper import eq15
 from precursors import Chain, simulate
 
 CHAIN = Chain.from_slider()
-# Times of mu_s F_Z in double precision.
+# Relative rounding of mu_s F_Z in double precision.
 ROUNDING = 1e-12
 
 
@@ -21,11 +21,11 @@ def test_the_load_of_a_rigid_slider_has_its_closed_form():
     assert eq15.largest_load(block, speed) == pytest.approx(closed, rel=1e-6)
 
 
-# Each check on something broken.
+# Checks of changed equations and chains
 
 
 def test_the_state_of_eq_12_is_at_the_limit():
-    """From maximal strain on all blocks are at their limits at the onset of the first
+    """From maximal strain, all blocks are at their limits at the onset of the first
     slip."""
     start = eq15.maximal_strain_positions(CHAIN)
     strained = simulate(CHAIN, 0.001, start_positions=start)

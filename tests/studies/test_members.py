@@ -1,5 +1,4 @@
-"""The rows of a study are those of its runs one by one, however it is cut into
-chunks."""
+"""The rows of a study equal those of single runs and do not depend on the chunks."""
 
 import math
 
@@ -45,7 +44,7 @@ def chunks_of(study: Study, n: int, directory) -> list:
 
 
 def one_by_one(study: Study) -> pd.DataFrame:
-    """Summaries of the members of a study, each run alone."""
+    """Summaries of the members of a study, each simulated alone."""
     runs = []
     for member in study.members.to_dict("records"):
         runs.append(
@@ -54,9 +53,9 @@ def one_by_one(study: Study) -> pd.DataFrame:
     return summarise(runs)
 
 
-def assert_rows(found: pd.DataFrame, expected: np.ndarray) -> None:
+def assert_rows(rows: pd.DataFrame, expected: np.ndarray) -> None:
     for name in expected:
-        np.testing.assert_array_equal(found[name], expected[name], err_msg=name)
+        np.testing.assert_array_equal(rows[name], expected[name], err_msg=name)
 
 
 def test_every_row_equals_that_of_a_single_run(noise, rows):
@@ -105,12 +104,12 @@ def test_a_member_at_the_limit_of_transitions_has_its_part(noise, rows, monkeypa
         ]
 
     monkeypatch.setattr("maegawa2010.studies.runs.simulate_many", capped)
-    found = run_members(Study(noise.members.query("scene == 'fig12'"), noise.seed))
-    longer = rows.loc[found.index, "transitions"] > 100
+    cut = run_members(Study(noise.members.query("scene == 'fig12'"), noise.seed))
+    longer = rows.loc[cut.index, "transitions"] > 100
     assert (
-        found["transitions"] == rows.loc[found.index, "transitions"].clip(upper=100)
+        cut["transitions"] == rows.loc[cut.index, "transitions"].clip(upper=100)
     ).all()
-    assert (found["global_slip_end_s"].isna() == longer).all()
+    assert (cut["global_slip_end_s"].isna() == longer).all()
     assert longer.sum() > 0
 
 
@@ -130,7 +129,7 @@ def test_a_larger_ensemble_contains_the_smaller(noise):
     ("fronts", "expected"),
     [
         ([1, 4, 7, 9, 10], (3 / 20) / (6 / 20)),
-        ([1, 4, 9, 7, 10], (3 / 10) / (6 / 30)),  # a rule that counts shorter ones
+        ([1, 4, 9, 7, 10], (3 / 10) / (6 / 30)),  # with a shorter event
         ([1, 4, 7, 9, 9], math.nan),  # the whole length is not reached
         ([7, 7, 7, 10, 10], math.nan),  # no rise up to the kink
     ],

@@ -1,4 +1,4 @@
-"""What is run: every job once, and after an edit only what the edit touches."""
+"""The jobs that run: at first all, and after an edit those that depend on it."""
 
 import re
 from collections import Counter
@@ -8,14 +8,12 @@ import pytest
 from places import ROOT
 
 PAPERS = {"simulate_scene fig10", "simulate_scene fig11", "simulate_scene fig12"}
-# Rules that `all` leaves out, and write_provenance, which conftest leaves out of all
-# lists of jobs.
+# Rules that `all` does not need, and write_provenance, which `Outcome.jobs` leaves out.
 ON_DEMAND = {"certify_scene", "prove_again", "write_provenance"}
-# The paper shows nearly all tables and figures, and is set again when one of them may
-# change.
+# The paper depends on nearly all tables and figures.
 PAPER = {"write_paper"}
 LISTS_OF_SCENES = {"mu_sapp", "judge_claims"} | PAPER
-CODE = "\nADDED = 1\n"  # to a module
+CODE = "\nADDED = 1\n"  # appended to a module
 
 
 def scene(name: str, line: str) -> str:
@@ -122,7 +120,7 @@ def test_an_edit_of_paper_or_configuration_runs_what_reads_it(finished, old, new
 def test_four_lines_make_a_new_scene_of_any_name(finished):
     finished.add_scenes(
         scene("fig10_slips", "duration: 1.0")
-    )  # looks like the name of a table
+    )  # a name like that of a table
     new = {"simulate_scene fig10_slips", "draw_scene fig10_slips"}
     assert finished.would_run() == new | LISTS_OF_SCENES
 

@@ -1,4 +1,4 @@
-"""What docs/ shows works: its code runs in a copy of the repository."""
+"""The examples in docs/ work: their code runs in a copy of the repository."""
 
 import ast
 import os
@@ -26,8 +26,7 @@ BLOCK = re.compile(r"^```(\w+)\n(.*?)^```", flags=re.MULTILINE | re.DOTALL)
 
 
 def blocks(section):
-    """Language, name of the file if there is one, and text of the blocks of a section
-    of adding.md."""
+    """Language, file name (or None) and text of each block of a section of adding.md."""
     text = (DOCS / "adding.md").read_text(encoding="utf-8")
     (body,) = [
         part for part in text.split("\n## ")[1:] if part.startswith(f"{section}\n")
@@ -50,7 +49,7 @@ SECTIONS = (
 
 @pytest.fixture(scope="module")
 def documented(tmp_path_factory):
-    """A copy of the workflow with the new files and the changes of all sections."""
+    """A copy of the workflow with the new files and changes of all sections."""
     workspace = copy_workflow(tmp_path_factory.mktemp("documented") / "copy")
     for language, name, code in (
         block for section in SECTIONS for block in blocks(section)
@@ -69,10 +68,10 @@ def documented(tmp_path_factory):
 
 
 def command(section):
-    (found,) = [
+    (words,) = [
         code.split() for language, _, code in blocks(section) if language == "sh"
     ]
-    return found[1:]
+    return words[1:]
 
 
 def test_the_example_scene_and_study_are_built(documented):
@@ -87,8 +86,8 @@ def test_the_example_scene_and_study_are_built(documented):
     assert (documented.path / "results/figures/durations.svg").is_file()
 
 
-# The test of the study shown, a chart of the method shown, its points in it, and the
-# colours of its line and of other methods.
+# Run the test of the example study, draw a chart with the example method, and print its
+# number of points, the colour of its line, and the colours of other methods.
 MORE = """
 from runpy import run_path
 run_path("tests/studies/durations/test_durations.py")["test_short_slips_are_left_out"]()
@@ -111,9 +110,9 @@ print(*(row["color"] for name, row in ROWS.items() if name != "scipy_rk23"))
 def test_the_example_model_and_method_print_what_docs_show(
     documented,
 ):
-    found = [block for of in ("A model", "A method") for block in blocks(of)]
+    examples = [block for of in ("A model", "A method") for block in blocks(of)]
     programs = [
-        code for language, name, code in found if language == "python" and not name
+        code for language, name, code in examples if language == "python" and not name
     ]
     done = subprocess.run(
         [sys.executable, "-c", "\n".join([*programs, MORE])],
@@ -124,7 +123,7 @@ def test_the_example_model_and_method_print_what_docs_show(
         check=True,
     )
     *lines, drawn, others = done.stdout.splitlines()
-    shown = "".join(code for language, _, code in found if language == "text")
+    shown = "".join(code for language, _, code in examples if language == "text")
     assert lines == shown.splitlines()
     points, color = drawn.split()
     assert int(points) == 2
@@ -172,16 +171,16 @@ def test_the_example_workflow_uses_this_one_as_a_module(documented):
 
 
 def test_the_examples_of_the_page_on_changes_work(workspace, monkeypatch, capsys):
-    found: dict[str, list[str]] = {}
+    examples: dict[str, list[str]] = {}
     for language, code in BLOCK.findall(
         (DOCS / "customise.md").read_text(encoding="utf-8")
     ):
-        found.setdefault(language, []).append(code)
+        examples.setdefault(language, []).append(code)
     monkeypatch.chdir(workspace.path)
-    (workspace.path / "mine.yaml").write_text(found["yaml"][0], encoding="utf-8")
-    for table in found["csv"]:
+    (workspace.path / "mine.yaml").write_text(examples["yaml"][0], encoding="utf-8")
+    for table in examples["csv"]:
         (workspace.path / table.split()[1]).write_text(table, encoding="utf-8")
-    for line in "".join(found["sh"]).splitlines():
+    for line in "".join(examples["sh"]).splitlines():
         program, *arguments = shlex.split(line, comments=True)
         if program == "precursors":
             assert cli.main(arguments) == cli.DONE
@@ -200,8 +199,8 @@ def test_an_example_prints_what_it_says(script, tmp_path, monkeypatch, capsys):
     source = script.read_text(encoding="utf-8")
     monkeypatch.chdir(tmp_path)
     exec(compile(source, script, "exec"), {})
-    _, told = ast.get_docstring(ast.parse(source)).split("Prints:\n")
-    assert dedent(capsys.readouterr().out).rstrip() == dedent(told)
+    _, output = ast.get_docstring(ast.parse(source)).split("Prints:\n")
+    assert dedent(capsys.readouterr().out).rstrip() == dedent(output)
     assert script.name in RECIPES.read_text(encoding="utf-8")
     for path in re.findall(r'savefig\("(.+?)"', source):
         assert (tmp_path / path).stat().st_size > 10_000

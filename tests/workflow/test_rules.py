@@ -1,12 +1,11 @@
-"""The rules are written as Snakemake's own tools ask for, and know the code that they
-run."""
+"""The rules satisfy Snakemake's linter, and depend on the code that they run."""
 
 import re
 
 import pytest
 from places import ROOT
 
-# One environment, built from requirements.lock by the Makefile, serves all rules.
+# All rules share one environment, which the Makefile builds from requirements.lock.
 ACCEPTED_FINDING = "Specify a conda environment or container for each rule"
 
 

@@ -1,4 +1,4 @@
-"""The scripts say in one line what goes wrong, and print what they should."""
+"""The scripts report errors in one line, and print their results."""
 
 import re
 import runpy
@@ -46,7 +46,7 @@ def test_an_unfinished_run_has_a_file_name_of_its_own(workspace):
     assert len(Run.load(runs / "fig10.unfinished.h5").transitions) == 100
 
 
-# What make calls
+# Scripts that make calls
 
 
 def test_the_reproduction_is_printed_beside_the_papers_numbers(tmp_path, capsys):
@@ -62,7 +62,7 @@ def test_the_reproduction_is_printed_beside_the_papers_numbers(tmp_path, capsys)
 
 
 @pytest.mark.parametrize(
-    ("script", "arguments", "told"),
+    ("script", "arguments", "message"),
     [
         (
             "print_reproduction",
@@ -73,9 +73,9 @@ def test_the_reproduction_is_printed_beside_the_papers_numbers(tmp_path, capsys)
     ],
 )
 def test_a_script_of_make_names_a_missing_file_in_one_line(
-    tmp_path, monkeypatch, script, arguments, told
+    tmp_path, monkeypatch, script, arguments, message
 ):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "argv", [script, *arguments])
-    with pytest.raises(SystemExit, match=rf"\A{told}[^\n]*\Z"):
+    with pytest.raises(SystemExit, match=rf"\A{message}[^\n]*\Z"):
         runpy.run_path(str(ROOT / f"workflow/scripts/{script}.py"), run_name="__main__")

@@ -1,5 +1,4 @@
-"""Every failure mode is measured: what a method gives is not right, and is what theory
-predicts."""
+"""Every failure mode is measured: results of the methods are wrong, as theory predicts."""
 
 from functools import cache
 from pathlib import Path
@@ -15,7 +14,7 @@ from maegawa2010.studies.failures.stability import highest_frequency
 from maegawa2010.studies.failures.tables import FAILURE_MODES
 from precursors import Chain
 
-# Between a measured curve and the closed form, of its first order.
+# Between a measured curve and the closed form, which is of first order.
 THEORY_TOLERANCE = 0.02
 
 
@@ -25,7 +24,7 @@ def measured(name: str) -> list[Curve]:
 
 
 def curves(mode: str, role: str) -> dict[str, np.ndarray]:
-    """Points of the curves of a failure mode in a role, shape (2, n), by their names."""
+    """Points of a failure mode's curves with a role, shape (2, n), by name."""
     return {c.name: np.array([c.x, c.y]) for c in measured(mode) if c.role == role}
 
 
@@ -34,7 +33,7 @@ def test_a_method_fails_as_theory_predicts(mode):
     theory = curves(mode, "theory")
     for name, (x, y) in curves(mode, "failing").items():
         predicted = np.interp(x, *theory[name])
-        # Near its limit, the energy of leapfrog swings.
+        # Near its limit, the energy of leapfrog oscillates.
         far = slice(-3 if mode == "unstable" else None, None)
         np.testing.assert_allclose(y[far], predicted[far], rtol=THEORY_TOLERANCE)
 
@@ -65,7 +64,7 @@ PANELS = Path(figure.__file__).with_name("failure_gallery.csv")
 
 
 def gallery_of_failures():
-    """Of the curves that the workflow wrote."""
+    """The gallery with the curves of the build."""
     return figure.draw(made("failure_curves"), pd.read_csv(PANELS))
 
 

@@ -1,4 +1,4 @@
-"""Noise: by hand, runs without a global slip, ends of intervals."""
+"""The members of the noise study, and their quantiles."""
 
 import numpy as np
 import pytest
