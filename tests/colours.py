@@ -30,6 +30,6 @@ def alike(colors: Mapping[str, str], sight: str | None = None) -> list[tuple[str
     positions = in_cielab(colors, sight)
     return [
         pair
-        for pair in combinations(places, 2)
+        for pair in combinations(positions, 2)
         if math.dist(*(positions[name] for name in pair)) < DISTINCT
     ]

@@ -81,7 +81,7 @@ const STEPS = [
     plays: true, shows: "slip",
     text: (word) => `The slider is modelled as a row of blocks with springs between them,
       and the ${word("drive")} pushes the first block. The ${word("bars")} under a block shows the
-      net force of its springs, the ${word("frames")} its limit of static friction. <b>A block slips
+      net force of its springs, and the ${word("frames")} its limit of static friction. <b>A block slips
       when its bar reaches its frame.</b> The blocks slip one after another from the trailing edge,
       here up to ${word("blocks")}; the others stay stuck. This is a ${word("precursor")} of the
       slip of the whole row.`,
@@ -94,7 +94,7 @@ const STEPS = [
       ${word("released")} one. The ${word("line")} is the load ${word("load")} minus the kinetic
       friction of the blocks up to this point. <b>The farthest slips stop where friction has used up
       the push.</b> This one reaches ${word("blocks")}<span data-reason></span> Press → for the next
-      slip: with the load the ${word("front")} grows, with a shorter slip now and then.`,
+      slip: the ${word("front")} grows with the load, apart from a shorter slip now and then.`,
   },
   {
     name: "Mean", title: "What does not depend on the loading?", scene: nearTheta(1),
