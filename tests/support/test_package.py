@@ -17,7 +17,7 @@ from precursors.support.checkout import git_state
 # The compiler, and what only simulations and tables need.
 HEAVY = {"numba", "h5py", "pandas"}
 # What the rules of the workflow import.
-RULES = "from maegawa2010.paper import inputs, shown"
+RULES = "from maegawa2010.paper import documents, inputs"
 
 
 def loaded(program: str) -> set[str]:
