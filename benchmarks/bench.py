@@ -1,21 +1,21 @@
-"""The exact solver compared with heyoka.py and DOP853 in time, each with its error
-against proofs.
+"""Compare the exact solver with heyoka.py and DOP853: computing times, and errors against
+proofs.
 
     make bench                 everything, in a minute or two
-    make speed                 five times, for paper/tables/beside_heyoka.csv
+    make speed                 everything five times, for paper/tables/beside_heyoka.csv
     make bench METHOD=name     one method, in seconds
 
-With --quick it has a reduced size, to see that it runs.
+With --quick the sizes are reduced, to test that it runs.
 
-Ratios are what counts: all that is compared runs in turn in one process on one thread
-(see `maegawa2010.support.timing`).
+Only ratios of times are meaningful: everything that is compared runs in turn in one
+process on one thread (see `maegawa2010.support.timing`).
 """
 
 from __future__ import annotations
 
 import os
 
-# Before NumPy and Numba are imported.
+# Must be set before NumPy and Numba are imported.
 os.environ |= dict.fromkeys(
     ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"),
     "1",
@@ -58,13 +58,13 @@ from precursors.support.files import write_table
 
 ROOT = Path(__file__).resolve().parent.parent
 TABLE = ROOT / "results" / "tables" / "bench.csv"
-DURATION = 10.0  # s, the limit where a run ends by itself
-HEYOKA_TOLERANCE = 0.0  # its default, rounding
+DURATION = 10.0  # s; runs to the first global slip end before
+HEYOKA_TOLERANCE = 0.0  # its default, machine precision
 DOP853_TOLERANCE = 1e-13
 PROBLEMS = {"0": "uniform", "-5/6": "trailing", "5/6": "leading"}
 ENDS: dict[str, Until] = {"to the first global slip": "global slip", "10 s": None}
 ENSEMBLE, HEYOKA_ENSEMBLE = 2000, 100
-# A strained chain is driven so fast that it goes on slipping over its whole length.
+# The chain starts strained and is driven fast, so that all of it slips without a pause.
 LONG_CHAIN, SHORT_CHAIN, STRAIN, FAST_DRIVE = (
     200,
     10,
@@ -87,22 +87,22 @@ Row = dict[str, Any]
 
 
 def main() -> None:
-    """Measure, print the table and write it."""
+    """Measure, and print and write the table."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument(
-        "--quick", action="store_true", help="a reduced size, to see that it runs"
+        "--quick", action="store_true", help="reduce the sizes, to test that it runs"
     )
     parser.add_argument(
         "--output", type=Path, default=TABLE, help="the CSV file (%(default)s)"
     )
     parser.add_argument(
-        "--method", choices=METHODS, metavar="NAME", help="measure only this method"
+        "--method", choices=METHODS, metavar="NAME", help="measure this method only"
     )
     parser.add_argument(
         "--sessions",
         type=int,
         default=1,
-        help="how often; medians and ranges are written",
+        help="number of repetitions; medians and ranges are written",
     )
     arguments = parser.parse_args()
     if arguments.method:
@@ -141,8 +141,8 @@ def main() -> None:
 
 
 def one_method(name: str, rounds: int) -> pd.DataFrame:
-    """Measure a method, the exact solver and heyoka.py at theta = 0 to the end of the
-    first global slip."""
+    """Measure a method, the exact solver and heyoka.py for theta = 0, up to the end of
+    the first global slip."""
     truth = solution("uniform").until_global_slip()
     quick = charted_values(full=False)
     values = {
@@ -163,8 +163,7 @@ def one_method(name: str, rounds: int) -> pd.DataFrame:
 
 
 def against_heyoka(measure: Callable[..., Any]) -> Iterable[Row]:
-    """The exact solver and heyoka.py at its default tolerance, on the paper's three
-    scenes."""
+    """Compare with heyoka.py at its default tolerance, for the paper's three scenes."""
     if not find_spec("heyoka"):
         print("heyoka.py is not installed: left out", file=sys.stderr)
         return
@@ -181,8 +180,8 @@ def against_heyoka(measure: Callable[..., Any]) -> Iterable[Row]:
 
 
 def against_dop853(measure: Callable[..., Any]) -> Iterable[Row]:
-    """The exact solver and SciPy's DOP853 at its tightest, theta = 0 to the end of the
-    first global slip."""
+    """Compare with SciPy's DOP853 at a tight tolerance, for theta = 0 up to the end of
+    the first global slip."""
     solve = partial(
         solve_scipy, Chain.from_slider(), DURATION, DOP853_TOLERANCE, "global slip"
     )
@@ -196,8 +195,7 @@ def compared(
     solve: Callable[[], Result],
     measure: Callable[..., Any],
 ) -> Iterable[Row]:
-    """How many times faster the exact solver is than another, and the errors of
-    both."""
+    """Ratio of another method's time to that of the exact solver, and both errors."""
     chain, until = Chain.from_slider(theta=theta), ENDS[end]
     tasks: dict[str, Callable[[], Record]] = {
         "exact": partial(simulate, chain, DURATION, until),
@@ -212,20 +210,22 @@ def compared(
     yield row(f"time of {other} / exact", "1", wall)
     yield row(f"processor time of {other} / exact", "1", cpu)
     for name, task in tasks.items():
-        found = compare(task(), truth)
+        comparison = compare(task(), truth)
         yield row(f"time of {name}", "ms", 1e3 * timings[name].seconds)
         yield row(
-            f"transitions of {name} right, of {found.transitions_true}",
+            f"transitions of {name} right, of {comparison.transitions_true}",
             "1",
-            found.transitions_right,
+            comparison.transitions_right,
         )
-        yield row(f"largest error of their times, {name}", "s", found.time_error)
-        yield row(f"largest error of F_X at slip onsets, {name}", "N", found.load_error)
+        yield row(f"largest error of their times, {name}", "s", comparison.time_error)
+        yield row(
+            f"largest error of F_X at slip onsets, {name}", "N", comparison.load_error
+        )
 
 
 def ensemble(measure: Callable[..., Any], quick: bool) -> Iterable[Row]:
-    """First-slip runs of theta = 0 per second, by `simulate_many` on one thread and
-    more."""
+    """Runs per second to the first global slip of theta = 0, by `simulate_many` on one or
+    more threads."""
     chains = [Chain.from_slider()] * (20 if quick else ENSEMBLE)
     threads = sorted({1, 2, untyped.config.NUMBA_DEFAULT_NUM_THREADS})
     tasks = {
@@ -245,8 +245,8 @@ def ensemble(measure: Callable[..., Any], quick: bool) -> Iterable[Row]:
 
 
 def heyoka_ensemble(measure: Callable[..., Any], quick: bool) -> Iterable[Row]:
-    """Many runs on one thread by heyoka.py, in its own ensemble mode and in turn, over
-    `simulate_many`."""
+    """Compare `simulate_many` on one thread with heyoka.py, in its ensemble mode and run
+    by run."""
     if not find_spec("heyoka"):
         return
     from heyoka_ensemble import Ensemble
@@ -274,8 +274,7 @@ def heyoka_ensemble(measure: Callable[..., Any], quick: bool) -> Iterable[Row]:
 
 
 def in_callbacks() -> Iterable[Row]:
-    """Part of the processor time of heyoka.py and CVODE in the functions that they call
-    back, a median."""
+    """Median share of the processor time of heyoka.py and CVODE in our callbacks."""
     callbacks: dict[str, list[tuple[object, str]]] = {
         "heyoka": [(events.EventMotion, "switch")],
         "cvode_adams": [(cvode_events, "rates_of"), (cvode_events, "event_functions")],
@@ -303,7 +302,7 @@ def in_callbacks() -> Iterable[Row]:
 def part_within(
     run: Callable[[], object], functions: Iterable[tuple[object, str]]
 ) -> float:
-    """Part of the time of a call that is spent in some functions."""
+    """Share of the processor time of a call that is spent in given functions."""
     within = 0.0
 
     def timed(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -325,8 +324,7 @@ def part_within(
 
 
 def long_chains(measure: Callable[..., Any]) -> Iterable[Row]:
-    """How many times as long a transition of a long chain takes as one of ten
-    blocks."""
+    """Ratio of the time of a transition of a long chain to that of a short one."""
 
     def run(n_blocks: int) -> None:
         chain = Chain.from_slider(n_blocks=n_blocks, drive_velocity=FAST_DRIVE)
@@ -358,6 +356,6 @@ def _row(measurement: str, case: str, quantity: str, unit: str, value: float) ->
 if __name__ == "__main__":
     try:
         main()
-    # A method that diverged or gave up raises a RuntimeError.
+    # A method that diverges or gives up raises a RuntimeError.
     except (RuntimeError, ValueError, OSError) as error:
         sys.exit(f"bench: {' '.join(str(error).split())}")

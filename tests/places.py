@@ -1,4 +1,4 @@
-"""Where files lie that several tests read, and tables of the build and of long studies."""
+"""Paths that several tests need, and tables of the build and of long studies."""
 
 from pathlib import Path
 
@@ -11,10 +11,10 @@ CERTIFICATES = ROOT / "src/precursors/benchmark/certificates"
 
 
 def made(name: str) -> pd.DataFrame:
-    """A table that `make all` made."""
+    """A table of `make all`."""
     return pd.read_csv(RESULTS / f"tables/{name}.csv")
 
 
 def committed(name: str) -> pd.DataFrame:
-    """A table of a long study, which is committed."""
+    """A committed table of a long study."""
     return pd.read_csv(ROOT / f"paper/tables/{name}.csv")

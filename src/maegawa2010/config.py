@@ -1,5 +1,7 @@
-"""The configuration of the workflow: its files, put together and checked. What is wrong
-is said in one line: which value, in which file, and what it must be."""
+"""Merge and check the files of the workflow's configuration.
+
+An error message has one line: which value, in which file, and what it must be.
+"""
 
 import os
 from collections import ChainMap
@@ -20,17 +22,17 @@ from precursors.model.chain import Chain
 from precursors.support.files import AnyPath, read_bytes
 
 TEXT = "tag:yaml.org,2002:str"
-# Of letters that two words share: a name that is as like as this may be meant.
-ALIKE = 0.7
+# Least similarity (as `difflib` measures it) at which another name is suggested.
+SIMILARITY = 0.7
 
 
 class Loader(yaml.CSafeLoader):
-    """Reads each key once, and no number as text."""
+    """A YAML loader that refuses repeated keys and numbers that YAML reads as text."""
 
     def construct_mapping(
         self, node: yaml.MappingNode, deep: bool = False
     ) -> dict[Any, Any]:
-        """Return a table, in which no key stands twice."""
+        """Return a table; a repeated key is refused."""
         keys = [key.value for key, _ in node.value]
         for i, (key, _) in enumerate(node.value):
             if key.value in keys[:i]:
@@ -38,7 +40,7 @@ class Loader(yaml.CSafeLoader):
         return super().construct_mapping(node, deep)
 
     def construct_scalar(self, node: Any) -> Any:
-        """Return a value; Python's 2.5e9 is refused, which YAML reads as text."""
+        """Return a value; 2.5e9 is refused, because YAML reads it as text."""
         if node.tag == TEXT and not node.style and _as_number(node.value) != node.value:
             remedy = "write a number as 2.5e+9 and not as 2.5e9, or a text in quotes"
             raise _misread(node, f"{node.value} is text to YAML: {remedy}")
@@ -50,7 +52,7 @@ def _misread(node: Any, problem: str) -> yaml.MarkedYAMLError:
 
 
 def _as_number(value: Any) -> Any:
-    """The number that a text is, if it is one."""
+    """The number that a text stands for, or the value unchanged."""
     for kind in (int, float) if isinstance(value, str) else ():
         with suppress(ValueError):
             return kind(value)
@@ -60,21 +62,21 @@ def _as_number(value: Any) -> Any:
 def load_config(
     given: Config, files: Mapping[str, Config], workflow: Path
 ) -> dict[str, Any]:
-    """Put a configuration together, and check it.
+    """Merge a configuration with the default settings, and check it.
 
     Parameters
     ----------
     given
-        What Snakemake has read, the command line included.
+        The configuration as Snakemake read it, including the command line.
     files
-        The contents of the files that it was read from, the most important one last.
+        The contents of its files by path; a later file overrides an earlier one.
     workflow
-        Directory of the settings, which have what is not given, and of the schemas.
+        Directory with the default settings and the schemas.
 
     Raises
     ------
     ValueError
-        In one line: which value, where, and what it must be.
+        If a value is wrong: one line that says which, where, and what it must be.
     """
     settings = read_settings(workflow)
     defaults = dict(ChainMap(*settings.values()))
@@ -92,8 +94,7 @@ def load_config(
 
 
 def read_settings(workflow: Path) -> dict[str, dict[str, Any]]:
-    """What the settings of all studies, and those of each, give a configuration, by
-    file."""
+    """Default settings by file: those that all studies share, and those of each study."""
     shared = workflow / "settings.yaml"
     of_studies = sorted(workflow.glob("studies/*/settings.yaml"))
     return {str(shared): read_file(shared)} | {
@@ -104,7 +105,10 @@ def read_settings(workflow: Path) -> dict[str, dict[str, Any]]:
 def read_file(path: AnyPath) -> dict[str, Any]:
     """Read a YAML file.
 
-    The ValueError says in one line which file, where in it, and what is wrong.
+    Raises
+    ------
+    ValueError
+        In one line: which file, where in it, and what is wrong.
     """
     try:
         config = yaml.load(read_bytes(path).decode(), Loader)
@@ -120,14 +124,17 @@ def read_file(path: AnyPath) -> dict[str, Any]:
 
 
 def place_weights(config: dict[str, Any], path: AnyPath, content: Config) -> None:
-    """Files of normal loads lie beside the file that names them, whose content is
-    given."""
-    # What is no scene is refused by the schema.
+    """Make the paths of files of normal loads relative to the configuration file that
+    names them.
+
+    `content` is the content of that file, `path` its path.
+    """
+    # The schema refuses malformed scenes later.
     with suppress(AttributeError, LookupError, TypeError):
         for name, scene in content["scenes"].items():
             file = scene.get("weights")
             merged = config["scenes"][name]
-            # Unless another file or the command line names another one.
+            # Another file or the command line may override this one.
             if isinstance(file, str) and merged["weights"] == file:
                 beside = os.path.join(os.path.dirname(path) or os.curdir, file)
                 merged["weights"] = beside
@@ -139,12 +146,23 @@ def check_config(
     schema_path: AnyPath,
     files: Mapping[str, Config] | None = None,
 ) -> None:
-    """Refuse a configuration, as YAML gives it, that the workflow cannot run.
+    """Refuse a configuration that the workflow cannot run.
 
-    The ValueError says in one line which value, where, and what it must be. `studies`
-    has all sections of studies. `files` are the contents of the files from which the
-    configuration was put together, the most important one last. The JSON schema is
-    YAML, too.
+    Parameters
+    ----------
+    config
+        The merged configuration, as YAML gives it.
+    studies
+        Default settings of all studies by section.
+    schema_path
+        The JSON schema, written in YAML.
+    files
+        The contents of the merged files by path; a later file overrides an earlier one.
+
+    Raises
+    ------
+    ValueError
+        In one line: which value, where, and what it must be.
     """
     schema = read_file(schema_path)
     for path in Path(schema_path).parent.glob("studies/*/schema.yaml"):
@@ -155,7 +173,7 @@ def check_config(
     errors = [*Draft202012Validator(schema).iter_errors(config)]
     unknown = [error for error in errors if error.validator == "additionalProperties"]
     if error := best_match(unknown or errors):
-        raise _refusal(*_said_of(error, files or {}))
+        raise _refusal(*_file_and_problem(error, files or {}))
     try:
         _check_chains(config)
         check_names("fig13", config["fig13"], scenes_with_theta(config))
@@ -168,8 +186,7 @@ def check_config(
 
 
 def _add_keys(schema: dict[str, Any], studies: Config) -> None:
-    """Enter the sections of studies and the keys of each into the schema, which refuses
-    all others."""
+    """Add the sections of studies and their keys to the schema, which refuses others."""
     for name, section in studies.items():
         known = schema["properties"].setdefault(name, {})
         if isinstance(section, dict):
@@ -178,8 +195,8 @@ def _add_keys(schema: dict[str, Any], studies: Config) -> None:
             known["additionalProperties"] = False
 
 
-def _said_of(error: Any, files: Mapping[str, Config]) -> tuple[str, str]:
-    """The file with a value that the schema refuses, and what is wrong with it."""
+def _file_and_problem(error: Any, files: Mapping[str, Config]) -> tuple[str, str]:
+    """The file with the value that the schema refuses, and what is wrong with it."""
     where = error.json_path.removeprefix("$").lstrip(".") or "top level"
     place = [*error.absolute_path]
     value = error.instance
@@ -187,7 +204,7 @@ def _said_of(error: Any, files: Mapping[str, Config]) -> tuple[str, str]:
         known = error.schema["properties"]
         key = next(key for key in value if key not in known)
         file = _file_with([*place, key], value[key], files)
-        return file, f"{where} has no key {key!r}: {meant(key, known)}"
+        return file, f"{where} has no key {key!r}: {suggestion(key, known)}"
     message = error.message
     if "description" in error.schema:
         given = list(value) if isinstance(value, dict) else value
@@ -196,7 +213,7 @@ def _said_of(error: Any, files: Mapping[str, Config]) -> tuple[str, str]:
 
 
 def _file_with(path: list[Any], value: Any, files: Mapping[str, Config]) -> str:
-    """The most important file that has the value at the path."""
+    """The last file that has this value at this path of keys."""
     last = "configuration"
     for file, content in files.items():
         there: Any = content
@@ -208,12 +225,12 @@ def _file_with(path: list[Any], value: Any, files: Mapping[str, Config]) -> str:
 
 
 def _refusal(where: AnyPath, problem: object) -> ValueError:
-    """What is wrong, in one line."""
+    """An error whose message has one line."""
     return ValueError(f"{where}: {' '.join(str(problem).split())}")
 
 
 def _check_chains(config: Config) -> None:
-    """Make every chain of the configuration; its own errors say what is wrong."""
+    """Make every chain of the configuration, to check its values."""
     where = "chain"
     try:
         Chain.from_slider(**config["chain"])
@@ -227,17 +244,17 @@ def _check_chains(config: Config) -> None:
 
 
 def check_names(where: str, names: Iterable[str], known: Iterable[str]) -> None:
-    """Refuse a name of nothing."""
+    """Refuse an unknown name."""
     known = [*known]
     for name in names:
         if name not in known:
-            raise ValueError(f"{where} has {name!r}: {meant(name, known)}")
+            raise ValueError(f"{where} has {name!r}: {suggestion(name, known)}")
 
 
-def meant(name: object, known: Iterable[str]) -> str:
-    """The one of the known names that is like a name, or all of them."""
+def suggestion(name: object, known: Iterable[str]) -> str:
+    """Suggest the known name that is most similar to an unknown one, or list all."""
     known = [*known]
-    like = get_close_matches(str(name), known, 1, ALIKE)
+    like = get_close_matches(str(name), known, 1, SIMILARITY)
     if like:
         return f"did you mean {like[0]!r}?"
     return f"it must be one of {', '.join(known)}"

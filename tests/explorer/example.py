@@ -1,4 +1,4 @@
-"""The page that the build wrote, and its picture for README."""
+"""The page of the build, and its picture for README."""
 
 import hashlib
 import zlib
@@ -10,7 +10,7 @@ SOURCE = ROOT / "src/maegawa2010/explorer"
 PAGE = ROOT / "results/explorer.html"
 PICTURE = ROOT / "docs/explorer.png"
 THETAS = {"fig10": 0.0, "fig11": -5 / 6, "fig12": 5 / 6}
-TOLERANCE = 1e-9  # s, of the times of a run that is called predictable
+TOLERANCE = 1e-9  # s, error of a time up to which a run counts as predictable
 LAPTOP = (1280, 800)  # px
 MARGIN = 8  # px, above the picture
 END = 12  # bytes of the last chunk of a PNG
@@ -29,8 +29,8 @@ def drawn_from() -> str:
 
 
 def picture() -> bytes:
-    """The row in the middle of the second step's precursor, and its slips, as a PNG that
-    says what it was drawn from."""
+    """The row and the slips over time in the middle of the second step's precursor, as a
+    PNG that contains the digest `drawn_from`."""
     path = find_browser()
     if path is None:
         raise FileNotFoundError("no Chromium or Chrome here")

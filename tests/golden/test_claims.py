@@ -1,4 +1,4 @@
-"""The check of the claims names a result that was falsified."""
+"""The check of the claims reports changed verdicts and changed files."""
 
 import json
 import os
@@ -12,9 +12,7 @@ from places import RESULTS, made
 from maegawa2010.paper.inputs import CLAIM_TABLES
 
 
-def test_the_check_prints_every_claim_and_the_totals_and_fails_if_a_verdict_is_another(
-    tmp_path, capsys
-):
+def test_the_check_prints_all_claims_and_fails_on_a_new_verdict(tmp_path, capsys):
     check_claims.main(RESULTS)
     text = capsys.readouterr().out
     claims = made("claims").to_dict("records")
@@ -44,7 +42,7 @@ def test_the_check_prints_every_claim_and_the_totals_and_fails_if_a_verdict_is_a
 
 @pytest.fixture
 def copy(tmp_path):
-    """A copy of the tables and of a figure, with where they come from."""
+    """A copy of the tables and of a figure, with their provenance."""
     shutil.copytree(RESULTS / "tables", tmp_path / "tables")
     (tmp_path / "figures").mkdir()
     shutil.copy2(RESULTS / "figures/fig10.svg", tmp_path / "figures")
@@ -52,14 +50,14 @@ def copy(tmp_path):
     return tmp_path
 
 
-def test_the_check_names_a_table_that_changed_on_disk_with_its_time_kept(copy):
+def test_the_check_names_a_changed_table_even_if_its_time_is_old(copy):
     check_claims.main(copy)
     table = copy / "tables/measures.csv"
     times = table.stat().st_atime_ns, table.stat().st_mtime_ns
-    for kept in (True, False):
+    for has_old_time in (True, False):
         with table.open("a") as file:
             file.write("edited\n")
-        if kept:
+        if has_old_time:
             os.utime(table, ns=times)
         with pytest.raises(SystemExit) as error:
             check_claims.main(copy)
@@ -67,9 +65,7 @@ def test_the_check_names_a_table_that_changed_on_disk_with_its_time_kept(copy):
         assert str(error.value) == line
 
 
-def test_figures_of_a_size_of_ones_own_are_newer_and_the_tables_are_compared(
-    copy, capsys
-):
+def test_a_newer_figure_is_reported_and_an_older_one_fails(copy, capsys):
     figure = copy / "figures/fig10.svg"
     figure.write_text("<svg/>")
     check_claims.main(copy)
@@ -80,7 +76,7 @@ def test_figures_of_a_size_of_ones_own_are_newer_and_the_tables_are_compared(
         check_claims.main(copy)
 
 
-def test_results_of_another_slider_are_compared_with_nothing(tmp_path):
+def test_results_of_another_slider_are_not_compared(tmp_path):
     made = json.loads((RESULTS / "provenance.json").read_text())
     made["config"]["chain"]["mu_k"] = 0.46
     (tmp_path / "provenance.json").write_text(json.dumps(made))

@@ -1,4 +1,4 @@
-"""The committed table of a long study: its short rows are computed again."""
+"""Fast rows of the committed table of a long study are computed again."""
 
 import pandas as pd
 from places import committed
@@ -9,12 +9,12 @@ from maegawa2010.studies.resolution.tables import resolution_study
 from maegawa2010.studies.runs import run_members
 
 
-def test_medians_with_twenty_blocks_are_those_of_the_library():
+def test_committed_medians_with_twenty_blocks_are_reproduced():
     settings = CONFIG["resolution"] | FULL["resolution"]
     study = resolution_study(SLIDERS, CONFIG["duration"], settings)
     few = study.members[study.members["n_blocks"] == 20]
     runs = run_members(type(study)(few, seed=study.seed))
     row = ["scene", "theta", "n_blocks", "quantity"]
     again = noise_table(runs).set_index(row)
-    there = committed("resolution_full").set_index(row).loc[again.index]
-    pd.testing.assert_frame_equal(there, again, rtol=1e-6)
+    published = committed("resolution_full").set_index(row).loc[again.index]
+    pd.testing.assert_frame_equal(published, again, rtol=1e-6)

@@ -1,8 +1,8 @@
-"""The comparison of methods, published and made anew.
+"""The published comparison of methods, and that of the build.
 
-`snakemake -c2 --configfile config.yaml workflow/full.yaml -- accuracy` measures anew,
-some ten minutes with nothing else running; its table and speed.png drawn from it then
-replace paper/tables/work_precision_full.csv and the golden chart.
+`snakemake -c2 --configfile config.yaml workflow/full.yaml -- accuracy` measures again in
+about ten minutes if nothing else runs. Its table and speed.png then replace
+paper/tables/work_precision_full.csv and the golden chart.
 """
 
 import pytest
@@ -12,13 +12,13 @@ from places import committed, made
 
 from maegawa2010.studies.work_precision.figure import draw
 
-LEAST_CONTRAST = 4.5  # of words with white (WCAG)
+LEAST_CONTRAST = 4.5  # of words on white (WCAG)
 
 
 @pytest.mark.parametrize(
     ("read", "name"), [(committed, "work_precision_full"), (made, "work_precision")]
 )
-def test_every_method_that_comes_as_close_as_the_exact_solver_takes_longer(read, name):
+def test_every_method_as_accurate_as_the_exact_solver_is_slower(read, name):
     table = read(name)
     assert set(table["scene"]) == {"uniform"}
     is_right = table["transitions_right"].eq(table["transitions_true"])

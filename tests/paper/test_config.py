@@ -1,5 +1,4 @@
-"""A wrong configuration is refused in one line: which value, where, and what it must
-be."""
+"""Errors in the configuration: one line says which value, where, and what it must be."""
 
 import copy
 import math
@@ -19,7 +18,7 @@ MISSING = object()
 STEEP = {"title": "steep", "theta": 0.9}
 
 
-# Key, value, and words that the line must hold.
+# Key, value, and words of the error message.
 MEASURED = {"title": "as measured", "weights": [30.0, 40.0, 50.0]}
 WRONG = [
     ("chain.youngs_modulus", "2.5e9", ["chain.youngs_modulus: '2.5e9' is not of type"]),
@@ -101,7 +100,7 @@ def changed(key, value):
 
 
 def leaves(value, where=()):
-    """Places of all numbers, texts and lists of a configuration."""
+    """Keys of all numbers, texts and lists of a configuration."""
     if isinstance(value, dict):
         return [
             leaf
@@ -134,7 +133,7 @@ def test_the_papers_configuration_is_accepted():
 
 
 @pytest.mark.parametrize(("key", "value", "words"), WRONG)
-def test_a_wrong_value_is_named_with_its_place_and_what_it_must_be(key, value, words):
+def test_a_wrong_value_is_named_with_its_place_and_rule(key, value, words):
     line = refused(changed(key, value))
     assert [word for word in words if word not in line] == [], line
 
@@ -145,7 +144,7 @@ def test_every_value_of_the_file_is_checked():
     assert [key for key, line in lines.items() if key.split(".")[-1] not in line] == []
 
 
-def test_a_section_is_checked_by_its_study_and_not_by_names_of_another():
+def test_a_section_is_checked_by_the_keys_of_its_own_study():
     mine = {"step": [1, 2], "noise": "white", "lowest": 1e-5}
     studies = STUDIES | {"mine": mine}
     check_config(PAPERS | {"mine": mine}, studies, SCHEMA)
@@ -153,7 +152,7 @@ def test_a_section_is_checked_by_its_study_and_not_by_names_of_another():
         check_config(PAPERS | {"mine": {"lower": 1e-5}}, studies, SCHEMA)
 
 
-def test_a_wrong_value_is_said_to_be_in_the_file_that_has_it():
+def test_an_error_names_the_file_with_the_wrong_value():
     mine = {"noise": {"sede": 1, "runs": 0}}
     files = {"config.yaml": PAPERS, "mine.yaml": mine}
     for given, line in (
@@ -180,7 +179,7 @@ def test_a_wrong_value_is_said_to_be_in_the_file_that_has_it():
         ("a: 1\n---\na: 2\n", "but found another document in line 2, column 1"),
     ],
 )
-def test_a_file_that_is_not_plain_yaml_is_refused_with_its_place(tmp_path, text, words):
+def test_a_file_that_is_not_plain_yaml_is_refused(tmp_path, text, words):
     path = tmp_path / "mine.yaml"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(ValueError, match=r"\A[^\n]+mine.yaml[^\n]+\Z") as error:
@@ -195,7 +194,7 @@ def test_numbers_and_quoted_texts_are_accepted(tmp_path):
     assert read_file(path)["a"] == [0, -1, 0.5, 2.5e9, "1e-5", "text", True]
 
 
-def test_measured_normal_loads_are_those_of_the_blocks_from_a_list_or_a_file(tmp_path):
+def test_measured_normal_loads_come_from_a_list_or_a_file(tmp_path):
     (tmp_path / "loads.csv").write_text("30\n40\n50\n")
     for weights in (MEASURED["weights"], str(tmp_path / "loads.csv")):
         config = changed("scenes.steep", MEASURED | {"weights": weights})
@@ -207,7 +206,7 @@ def test_measured_normal_loads_are_those_of_the_blocks_from_a_list_or_a_file(tmp
         assert math.isnan(slider["theta"])
 
 
-def test_numbers_of_the_chain_may_be_text_as_in_config_of_the_command_line():
+def test_numbers_of_the_chain_may_be_text_on_the_command_line():
     given = changed("chain.n_blocks", "12")
     given["chain"]["youngs_modulus"] = "3e9"
     chain = load_config(given, {}, ROOT / "workflow")["chain"]

@@ -1,5 +1,5 @@
-"""What a reading of the paper's words makes of a slip table, and which readings give the
-paper's numbers."""
+"""Numbers of a slip table under readings of the paper's words, and the readings that give
+the paper's numbers."""
 
 import pandas as pd
 import pytest
@@ -10,8 +10,8 @@ from precursors.analysis.summary import summary_of
 
 # One quotient of doubles.
 ROUNDING = 1e-15
-# Front, blocks that slid, most at once, load before and after, of five events of a
-# chain of three blocks.
+# Front, blocks that slid, most at the same time, and load before and after, for five
+# events of a chain of three blocks.
 EVENTS = pd.DataFrame(
     [
         (2, 2, 1, 9.0, 8.0),
@@ -47,7 +47,7 @@ def table() -> pd.DataFrame:
     return tabulate(3.0, [5.0, 10.0])
 
 
-def test_each_reading_differs_from_ours_in_the_one_thing_that_is_changed(table):
+def test_each_reading_differs_from_ours_in_one_respect(table):
     columns = ["degree", "switching", "global_slip", "short", "front"]
     changed = {
         "global_slip": 3,
@@ -66,7 +66,7 @@ def test_each_reading_differs_from_ours_in_the_one_thing_that_is_changed(table):
     )
 
 
-def test_the_readings_that_give_six_numbers_are_ours_and_three_others(table):
+def test_four_readings_have_all_six_numbers_of_the_paper(table):
     six = table[table["numbers_within_a_digit"] == 6].iloc[::3]
     assert six[
         ["changed", "global_slip", "front", "switching"]
@@ -107,9 +107,7 @@ def test_a_reading_without_a_global_slip_has_empty_numbers():
         ),
     ],
 )
-def test_a_reading_decides_which_event_is_global_and_which_are_short(
-    reading, events, counted, mu_sapp
-):
-    found = summary_of(reading.read(EVENTS))
-    assert (found.events_to_global_slip, found.events_counted) == (events, counted)
-    assert found.mu_sapp == pytest.approx(mu_sapp, rel=ROUNDING)
+def test_a_reading_selects_global_and_short_events(reading, events, counted, mu_sapp):
+    summary = summary_of(reading.read(EVENTS))
+    assert (summary.events_to_global_slip, summary.events_counted) == (events, counted)
+    assert summary.mu_sapp == pytest.approx(mu_sapp, rel=ROUNDING)

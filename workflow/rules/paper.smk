@@ -1,5 +1,5 @@
 from maegawa2010.paper.inputs import CLAIM_TABLES, POINT_TABLES
-from maegawa2010.paper.shown import results_shown
+from maegawa2010.paper.documents import cited_results
 
 PAPER_SOURCE = ROOT / "paper"
 # The article describes the paper's slider, so it is not made for another.
@@ -67,7 +67,7 @@ rule write_paper:
         # Read from the text of the document. The job refuses to run without a result that no rule makes.
         shown=lambda wildcards: [
             path
-            for path in results_shown(PAPER_SOURCE / f"{wildcards.document}.typ")
+            for path in cited_results(PAPER_SOURCE / f"{wildcards.document}.typ")
             if any(rule.is_producer(path) for rule in workflow.rules)
         ],
         main=PAPER_SOURCE / "{document}.typ",

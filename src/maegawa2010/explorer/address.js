@@ -1,8 +1,8 @@
-// A state of the page as its address.
+// Reads and writes the state of the page as its address.
 
 const MOST_EVENTS = 1e6; // of a run
 
-// The address has the step, and what is not as in the step: #step=mean&blocks=40.
+// Write the step, and the values that differ from those of the step: #step=mean&blocks=40.
 function writeAddress() {
   const { name, scene } = STEPS[state.step - 1], parts = new URLSearchParams();
   parts.set("step", name.toLowerCase());
@@ -13,7 +13,7 @@ function writeAddress() {
   if (state.pick === null && state.event !== null) parts.set("event", state.event + 1);
   history.replaceState(null, "", `#${parts}`);
 }
-// Go where the address says; what it cannot mean is named and left out.
+// Set the state from the address; parts that are not valid are left out and named.
 function readAddress() {
   const names = STEPS.map(({ name }) => name.toLowerCase()), values = {}, refused = [];
   const limits = { event: { range: [1, MOST_EVENTS], step: 1 } };

@@ -1,4 +1,4 @@
-"""The data of the explorer, from the configuration and from tables of the build."""
+"""The data of the explorer, from the configuration and the workflow's tables."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any
@@ -14,7 +14,7 @@ from precursors.analysis.summary import apparent_friction, summary_of
 from precursors.model.chain import SLIDER, Chain, parse_theta
 from precursors.solver.simulate import simulate
 
-STEP = 0.01  # of theta, after which the paper's loadings no longer agree
+STEP = 0.01  # change of theta after which mu_sapp of the loadings no longer agrees
 
 Slider = Mapping[str, Any]
 
@@ -25,17 +25,17 @@ def explorer_data(
     tables: Mapping[str, pd.DataFrame],
     proved: Mapping[str, Slider],
 ) -> dict[str, Any]:
-    """The data of `write_explorer`, without `duration` and `tolerance`.
+    """The data for `write_explorer`, without `duration` and `tolerance`.
 
     Parameters
     ----------
     sliders, slips
         Arguments of `Chain.from_slider` of each scene, and their slip tables.
     tables
-        `members` and `shares` of the sliders with the same printed inputs, and
-        `resolution`.
+        Tables of the studies: `members` and `shares` of the sliders with the same
+        printed inputs, and `resolution`.
     proved
-        `horizon.proved` of the configuration.
+        The section `horizon.proved` of the configuration.
     """
     shares = tables["shares"].query("question == 'all_six'")
     even = min(sliders.values(), key=lambda slider: abs(slider["theta"]))
@@ -80,7 +80,7 @@ def scene_data(
 
 
 def tilted(slider: Slider) -> dict[str, float]:
-    """mu_sapp of a slider whose theta is larger by `STEP`."""
+    """theta and mu_sapp of a slider whose theta is larger by `STEP`."""
     theta = slider["theta"] + STEP
     chain = Chain.from_slider(**{**slider, "theta": theta})
     run = simulate(chain, until="global slip")
@@ -88,7 +88,7 @@ def tilted(slider: Slider) -> dict[str, float]:
 
 
 def proved_slider(values: Slider) -> dict[str, Any]:
-    """Arguments of `Chain.from_slider` of a chain of the configuration's
+    """Arguments of `Chain.from_slider` for a chain of the configuration's
     `horizon.proved`."""
     slider = {
         name: values.get(name, value)

@@ -1,10 +1,10 @@
-// The figures of the page: what they show of the run and of its predictability.
+// The figures of a run, with its predictability.
 
-const REACH = 22; // pixels around a mark in which a click means it
-const NARROWEST = 10e-6; // s, the narrowest view of an event
-const LONG = 0.02; // s, above which the time is that of the run, not that of an event
-const ENLARGED = 250; // times, of movement; less where blocks would touch
-const chart = {}; // axes of the time, and marks of the front lengths: [x, y, number of the event]
+const REACH = 22; // px, distance from a mark within which a click selects it
+const NARROWEST = 10e-6; // s, shortest view of an event
+const LONG = 0.02; // s, longer views have the time of the run, shorter ones that of the event
+const ENLARGED = 250; // largest magnification of displacements; less if blocks would touch
+const chart = {}; // axes of the figures over time, and places [x, y] of the front lengths
 
 function view() {
   const { end, stopped } = run, last = firstGlobal(), one = event();
@@ -16,7 +16,7 @@ function view() {
   return { start: 0, end: (stopped && 1.04 * end) || DURATION };
 }
 
-// The part of the view that is played: of an event all of it, and no more.
+// The part of the view that is animated: in the view of an event, the event only.
 function played() {
   const { start, end } = state.view === "event" && event()
     ? { start: event().onset, end: event().end } : view();
@@ -27,7 +27,7 @@ function played() {
 const restForces = (number) => (run.events[number] ?? run).force.slice();
 const kindOf = (one) => (one.onset >= run.known ? "unsure" : one.isGlobal ? "global" : "partial");
 
-// The row at a time: forces of the springs, modes, and displacements [m].
+// The row at a time [s]: forces of the springs [N], modes, and displacements [m].
 function frameAt(time) {
   const { events, n, k, weights, strength, highest, slider } = run;
   const { drive_stiffness: K, drive_velocity: V, length, mu_k: friction } = slider;
@@ -47,8 +47,8 @@ function frameAt(time) {
     return x;
   };
   const magnified = Math.min(ENLARGED, Math.floor((0.34 * length * k) / n / highest));
-  // The camera stays where the last slip left the far end, goes along if that end leaves the
-  // picture, and then eases back.
+  // The camera stays where the leading edge was before the last slip, follows it if it leaves the
+  // picture, and then moves back to it smoothly.
   const x = positions(time, forces), room = (0.07 * length) / magnified;
   const left = at < 0 ? 0 : positions(last.onset, last.force)[n - 1];
   const camera = left + Math.max(x[n - 1] - left - room, 0);
@@ -83,7 +83,7 @@ function showRow() {
   const since = state.time - one?.onset;
   const pace = one && secondsOf(one) / (one.end - one.onset) / 1000;
   const clock = !one ? `${quantity(state.time, "s")}, all blocks stuck`
-    : `${quantity(one.onset, "s")}${since ? ` + ${quantity(since, "s")}` : ", block 1 lets go"}`;
+    : `${quantity(one.onset, "s")}${since ? ` + ${quantity(since, "s")}` : ", block 1 starts to slide"}`;
   const slowed = one ? `slow motion: 1 ms takes ${Number(pace.toPrecision(1))} s` : "time lapse";
   element("scrubber").setAttribute("aria-valuetext", clock);
   setHtml("moment", `${clock}, F_X = ${quantity(frame.load, "N")}` +
@@ -104,41 +104,41 @@ function showReadout() {
     ${quantity(one.end - one.onset, "s")},
     F_X: ${quantity(one.before, "N")} → ${quantity(one.after, "N")}.`;
   if (!setHtml("readout", text)) return;
-  // Words of the steps that are about the event.
+  // Update the words of the steps that depend on the event.
   const words = { blocks: `block ${one.front}`, added: one.isGlobal ? "red" : "blue" };
   for (const word of document.querySelectorAll("[data-lights=blocks], [data-lights=added]")) {
     word.textContent = words[word.dataset.lights];
   }
   const reason = reasonOf(one);
-  document.querySelector("[data-tells]").innerHTML = marked(reason);
+  document.querySelector("[data-reason]").innerHTML = marked(reason);
   setName("row", `A row of ${counts(n, "block")}, pushed from the left by a spring. ${text}
     This slip reaches block ${one.front}${reason}`);
 }
 
-// Why a slip goes no farther: friction has used up the push, or the next block stays below its limit.
+// Why a slip ends at its front: the push is used up, or the next block stays below its limit.
 function reasonOf(one) {
   const { n, weights, strength, slider } = run, { front } = one;
-  let left = one.before, spent = 0; // the load, and the blocks whose friction it bears
+  let left = one.before, spent = 0; // load that remains, blocks whose friction it overcame
   for (const load of weights) {
     const share = Math.min(left / (slider.mu_k * load), 1);
     spent += share;
     left -= share * slider.mu_k * load;
   }
   if (front === n) {
-    return left > 0 ? `, the last, with ${digits(left)} N of the push to spare.`
-      : ", the last, which the line does not reach.";
+    return left > 0 ? `, the last, and ${digits(left)} N of the push are left.`
+      : ", the last, although the line ends before it.";
   }
   if (front > spent + 1) return ", beyond the end of the line.";
   if (front >= spent - 1) return ", where the line ends.";
   const after = restForces(run.events.indexOf(one) + 1), net = after[front + 1] - after[front + 2];
-  return `, short of the end of the line: block ${front + 1} then bears
-    ${digits(Math.abs(net))} N and holds ${digits(strength[front + 1])} N.`;
+  return `, before the line ends: the net force on block ${front + 1} is then
+    ${digits(Math.abs(net))} N, below its limit of ${digits(strength[front + 1])} N.`;
 }
 
-// What is heard of a figure.
+// Set the accessible name of a figure.
 const setName = (id, text) => element(id).setAttribute("aria-label", plain(text));
 
-// Ticks and label of the time: of the run, or since the onset of an event.
+// Ticks and label of the time axis: time of the run, or time since the onset of an event.
 function timeAxis({ start, end }, width) {
   const about = Math.min(8, width / 80), zero = event()?.onset ?? start;
   if (end - start > LONG) return [ticks(start, end, about), "Time t [s]"];
@@ -149,7 +149,7 @@ function timeAxis({ start, end }, width) {
   return [{ values: values.map((value) => zero + value * unit), names }, label];
 }
 
-// F_X, which swings about mu_k F_Z after the first global slip; grey where it is not predictable.
+// Draw F_X over time, in grey where it is not predictable.
 function showLoad() {
   const window = view(), { start, end } = window, isRun = end - start > LONG;
   const [context, width, height] = clear(element("load")), one = event();
@@ -188,7 +188,7 @@ function showSlips() {
   setName("slips", "Slips over time: one line for each block, coloured while it slides");
 }
 
-// Front lengths against the load, as in Fig. 13.
+// Draw front lengths against the load, as in Fig. 13.
 function showLengths() {
   const [context, width, height] = clear(element("lengths")), { n, counted } = run;
   const { mu_k, normal_load } = run.slider, events = upToGlobal(run.events);
@@ -211,11 +211,11 @@ function showLengths() {
   const areShort = counted.length < events.length;
   const points = counted.map((e) => `${counts(e.front, "block")} at ${quantity(e.before, "N")}`);
   setHtml("lengths-key", keyOf("dot", new Set(counted.map(kindOf))) +
-    (areShort ? "<span><b>×</b> shorter than one before, not counted</span>" : ""));
+    (areShort ? "<span><b>×</b> shorter than an earlier one, not counted</span>" : ""));
   setName("lengths", `Front length against load: ${points.join(", ").slice(0, 900)}`);
 }
 
-// The study of a step.
+// Draw the study of a step.
 function showStudy() {
   if (!isStudied()) return;
   const { key, name } = STEPS[state.step - 1].study(...clear(element("study")));

@@ -1,7 +1,7 @@
-// Studies of many sliders, from the tables of the project, and where the reader's slider lies.
+// Figures of many sliders, from tables of the workflow, together with the reader's slider.
 
-const BIN = 0.005; // of mu_sapp: dots closer than this stand in rows on each other
-const ACROSS = 5;
+const BIN = 0.005; // width of a bin of mu_sapp, in which dots are stacked
+const ACROSS = 5; // dots beside each other in a bin
 
 function spanOf(values) {
   const [low, high] = [Math.min(...values), Math.max(...values)];
@@ -12,7 +12,7 @@ function drawBand(context, from, to) {
   context.fillRect(...from, to[0] - from[0], to[1] - from[1]);
 }
 
-// mu_sapp of the sliders with the same printed inputs, a strip for each loading.
+// Draw mu_sapp of sliders with the same printed inputs, a strip for each loading.
 function drawDigits(context, width, height) {
   const across = spanOf(TILTS.flatMap(of("draws"))), none = { values: [], decimals: 0 };
   const labels = ["μ_sapp of sliders with the same printed inputs", ""];
@@ -42,13 +42,13 @@ function drawDigits(context, width, height) {
   });
   return {
     key: `${keyTo("dot", "soft", "a slider with the same printed inputs")}
-      ${keyTo("ring", "ink", "with the printed digits")}
+      ${keyTo("ring", "ink", "the reproduced slider")}
       ${keyTo("box", "band", `as printed, ${BAND.map(twoDigits).join(" to ")}`)}`,
     name: `μ_sapp of sliders with the same printed inputs. ${shares.join("; ")}`,
   };
 }
 
-// F_X/F_Z over time under three loadings, and its mean from the first global slip to the last.
+// Draw F_X/F_Z over time for three loadings, and its mean from the first global slip to the last.
 function drawMeans(context, width, height) {
   const { mu_k, mu_s, normal_load } = run.slider, foot = 28, strip = (height - foot) / 3;
   const room = Math.max(mu_s - mu_k, 0.05), up = [mu_k - 0.7 * room, mu_k + room];
@@ -75,8 +75,8 @@ function drawMeans(context, width, height) {
   });
   return {
     key: `${keyTo("box", "ink", "mean from the first global slip to the last")}
-      ${keyTo("box", "unsure", "single slips are not predictable, the mean is")} dashed: μ_k`,
-    name: `F_X/F_Z over time under three loadings. ${means.join("; ")}`,
+      ${keyTo("box", "unsure", "single slips are not predictable, but the mean is")} dashed: μ_k`,
+    name: `F_X/F_Z over time for three loadings. ${means.join("; ")}`,
   };
 }
 // Mean and peak of F_X/F_Z from the onset of the first global slip to that of the last, if there are

@@ -1,4 +1,4 @@
-"""The runs of a study's members, each with its numbers."""
+"""Run the members of a study, and summarise each run."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -17,18 +17,17 @@ from precursors.solver.run import Record, Run
 from precursors.solver.simulate import TransitionLimitError
 from precursors.support.files import write_table
 
-# Runs of a batch are in memory at the same time: some 200 of 10 blocks, 10 of 200.
+# A batch is held in memory: 200 runs of 10 blocks, or 10 runs of 200 blocks.
 BLOCKS_PER_BATCH = 2000
-# L_p/L from which the length of the experiment's precursors grows faster (Sect. 6.1).
+# L_p/L beyond which the experiment's precursors grow faster (Sect. 6.1).
 KINK = 0.7
 
 
 def run_chunk(study: Study, chunk: str, path: str) -> None:
-    """Run one chunk of a study, "1of4" to "4of4": every n-th member, a row each with
-    what its run gave."""
+    """Run one chunk of a study, such as "1of4", and write a row for each member."""
     i, n = map(int, chunk.split("of"))
-    found = run_members(study.chunk(i, n))
-    write_table(found.rename_axis("member").reset_index(), path)
+    rows = run_members(study.chunk(i, n))
+    write_table(rows.rename_axis("member").reset_index(), path)
 
 
 def run_members(study: Study) -> pd.DataFrame:
@@ -37,8 +36,8 @@ def run_members(study: Study) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        The members, each with the numbers of its run (see `numbers_of`). A member that
-        meets the limit of transitions is summarised as far as it came.
+        The members, each with the numbers of its run (see `numbers_of`). A run that
+        reaches the limit of transitions is summarised up to there.
     """
     size = max(1, BLOCKS_PER_BATCH // max(study.members["n_blocks"], default=1))
     results = [numbers_of([])]
@@ -54,15 +53,15 @@ def run_members(study: Study) -> pd.DataFrame:
 
 
 def numbers_of(runs: Iterable[Record]) -> pd.DataFrame:
-    """A row for each run: its summary (see `summarise`), and the growth of L_p (see
+    """Summary of each run (see `summarise`), and the growth of its precursors (see
     `speedup`)."""
     runs = list(runs)
     return summarise(runs).assign(speedup=[speedup(slip_events(run)) for run in runs])
 
 
 def up_to_global_slip(chains: Sequence[Chain], duration: float) -> Sequence[Run]:
-    """Run a batch; a run that meets the limit of transitions is kept as far as it
-    came."""
+    """Run a batch of chains to their first global slips; a run that reaches the limit of
+    transitions ends there."""
     try:
         return simulate_many(chains, duration, "global slip", 1)
     except TransitionLimitError as limit:
@@ -73,11 +72,12 @@ def up_to_global_slip(chains: Sequence[Chain], duration: float) -> Sequence[Run]
 
 
 def speedup(slips: NDArray[np.void]) -> float:
-    """Growth of L_p with F_X beyond KINK L, over that before, in the events counted of
-    `slip_events`.
+    """Growth of L_p with F_X beyond KINK L over the growth before, from the counted
+    events of `slip_events`.
 
-    The first event of the whole length ends the second, and the last one before it of
-    up to KINK L divides the two. NaN where one of them has no rise of L_p or F_X.
+    The first part ends with the last event of at most KINK L before the first event of
+    the whole length, which ends the second part. NaN if L_p does not grow in the first
+    part, or F_X in the second.
     """
     counted = slips[slips["counted"]]
     front, load, n_blocks = (

@@ -1,1 +1,1 @@
-"""What scripts of the workflow share, digest of code, provenance, timing, statistics of runs."""
+"""Code that the workflow's scripts share: jobs, digests, provenance, timing, statistics."""

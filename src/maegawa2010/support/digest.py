@@ -1,5 +1,5 @@
-"""Digest of what a job computes: the syntax trees of its script and of all that this
-imports."""
+"""Digest of the code of a job: the syntax trees of its script and of all modules that
+it imports. Snakemake runs a job again when this digest changes."""
 
 import ast
 import hashlib
@@ -10,7 +10,7 @@ from pathlib import Path
 def digest_code(root: str | Path, script: str) -> str:
     """Digest of a script of the workflow and of all modules that it imports.
 
-    Comments, docstrings and the format of the code are left out. `root` is the directory
+    Comments, docstrings and formatting do not change it. `root` is the directory
     of the Snakefile, `script` a name such as "simulate_scene".
 
     Raises
@@ -24,15 +24,15 @@ def digest_code(root: str | Path, script: str) -> str:
         raise FileNotFoundError(
             f"workflow: {script}.py must be one script, but there are {len(waiting)}"
         )
-    found: dict[Path, str] = {}
+    digests: dict[Path, str] = {}
     while waiting:
-        if (path := waiting.pop()) not in found:
-            found[path], imported = _read(sources, path)
+        if (path := waiting.pop()) not in digests:
+            digests[path], imported = _read(sources, path)
             waiting += imported
-    trees = sorted(
-        (path.relative_to(root).as_posix(), tree) for path, tree in found.items()
+    code = sorted(
+        (path.relative_to(root).as_posix(), digest) for path, digest in digests.items()
     )
-    return hashlib.sha256(repr(trees).encode()).hexdigest()[:16]
+    return hashlib.sha256(repr(code).encode()).hexdigest()[:16]
 
 
 @cache
@@ -51,14 +51,14 @@ def _read(sources: Path, path: Path) -> tuple[str, list[Path]]:
         ) and ast.get_docstring(node, False):
             node.body = node.body[1:]
     imported = [file for name in names if (file := _file_of(sources, name))]
-    if b"import_module(" in source:  # by names that only a run knows
+    if b"import_module(" in source:  # any module of the folder may be imported
         imported += path.parent.glob("[!_]*.py")
     return hashlib.sha256(ast.dump(tree).encode()).hexdigest(), imported
 
 
 def _file_of(sources: Path, name: str) -> Path | None:
-    """The module of that name, or the module or package that defines it, if it is
-    ours."""
+    """File of the module of this name, or of the module or package that defines the
+    name, if it is ours."""
     module = sources.joinpath(*name.split("."))
     paths = [module.with_suffix(".py"), module / "__init__.py"]
     if "." in name:
