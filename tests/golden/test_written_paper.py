@@ -70,7 +70,7 @@ def test_a_missing_row_or_file_stops_the_build_in_one_line(here):
     with pytest.raises(ValueError, match=rf"^{line}[^\n]*$"):
         write()
     assert not Path("paper.pdf").exists()
-    shown = results_shown(SOURCE / "paper.typ")
+    shown = cited_results(SOURCE / "paper.typ")
     shown.remove("results/figures/hero.svg")
     line = "paper.typ shows results/figures/hero.svg, which no rule makes: "
     with pytest.raises(ValueError, match=rf"^paper/{line}[^\n]*$"):

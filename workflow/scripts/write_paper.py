@@ -6,7 +6,7 @@ import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
-from maegawa2010.paper.shown import results_shown
+from maegawa2010.paper.documents import cited_results
 from maegawa2010.support.job import job
 from precursors.support.files import write_whole
 
@@ -30,7 +30,7 @@ def main(
     import typst  # slow, and the tests of other scripts import this directory
 
     main_file = Path(main_file)
-    missing = sorted({*results_shown(main_file)} - {*map(str, results)})
+    missing = sorted({*cited_results(main_file)} - {*map(str, results)})
     if missing:
         raise ValueError(
             f"paper/{main_file.name} shows {', '.join(missing)}, which no rule makes: "
