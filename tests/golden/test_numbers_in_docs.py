@@ -87,7 +87,7 @@ def worst_error(column: str) -> float:
     return table("solver_vs_proof", "chain")[column][CHAINS].max()
 
 
-def test_readme_has_the_numbers_of_the_table_of_scenes():
+def test_readme_tells_the_numbers_of_the_tables():
     page = "README.md"
     counted = reproduced("events_counted")
     friction = reproduced("mu_sapp")
@@ -102,7 +102,7 @@ def test_readme_has_the_numbers_of_the_table_of_scenes():
     assert_limits(page, {"lie within {} of its 0.49": apart})
 
 
-def test_readme_has_the_findings_of_the_tables():
+def test_readme_tells_what_was_found():
     page = "README.md"
     runs = table("balance_runs_full")
     means = pd.concat([runs, table("balance")]).query("mu_k == 0.45")
@@ -140,7 +140,7 @@ def test_readme_has_the_findings_of_the_tables():
     assert_states(page, sentence, [min(fine), max(fine)])
 
 
-def test_readme_has_the_numbers_of_eq_15_and_other_readings():
+def test_readme_tells_what_eq_15_and_other_readings_give():
     page = "README.md"
     checks = table("eq15", "case", "check")["found"]["fig10"].astype(float)
     assert_states(page, "faster than about {} m/s", [checks["fast"]])
@@ -159,7 +159,7 @@ def test_readme_has_the_numbers_of_eq_15_and_other_readings():
         assert_states(page, sentence, [one.events_counted, one.mu_sapp])
 
 
-def test_docs_have_the_accuracy_and_the_medians_of_the_tables():
+def test_docs_tell_how_far_the_numbers_can_be_trusted():
     page = "docs/numbers.md"
     assert_states(
         page,
@@ -205,14 +205,14 @@ def test_docs_have_the_accuracy_and_the_medians_of_the_tables():
     assert_states(page, "is larger by {} to {}.", ends, NOISE)
 
 
-def test_docs_have_the_numbers_of_other_digits():
+def test_docs_tell_how_fragile_the_numbers_are():
     page = "docs/numbers.md"
-    thetas = ["0.833", "5/6", "0.8333343", "-5/6"]
+    thetas = ["0.833", "5/6", "0.8333343"]
     runs = [simulate(Chain.from_slider(theta=theta)) for theta in thetas]
     rows = summarise(runs)[["events_counted", "mu_sapp", "global_slip_end_s"]]
     for theta, numbers in zip(thetas, rows.to_numpy(), strict=True):
         assert_states(page, f"| {theta} | {{}} | {{}} | {{}} |", numbers)
-    fragile = rows["mu_sapp"][1:3]
+    fragile = rows["mu_sapp"][1:]
     assert_states(page, "by 1e-6 changes mu_sapp from {} to {}", fragile)
     digits = table("digits", "question").assign(n=table("digits")["n"].max())
     share = 100 * digits[["share", "low", "high"]]
@@ -227,7 +227,7 @@ def test_docs_have_the_numbers_of_other_digits():
     assert_states(caption, "of {} sliders", digits["n"][:1])
 
 
-def test_the_caption_of_the_wave_names_where_precursors_stop():
+def test_the_caption_of_the_wave_tells_where_precursors_stop():
     first = table("fig10_slips").query("is_global").index[0]
     precursors = table("fig10_slips")["front"][:first]
     sentence = "The precursors stop after blocks 4 and {}."
@@ -235,7 +235,7 @@ def test_the_caption_of_the_wave_names_where_precursors_stop():
     assert_states("README.md", "after block 4 and block {};", [precursors.max()])
 
 
-def test_docs_have_the_published_times():
+def test_docs_tell_the_published_times():
     page = "docs/performance.md"
     heyoka = table("beside_heyoka", "case", "quantity", "measurement").xs(
         "heyoka", level=2
@@ -262,9 +262,8 @@ def test_docs_have_the_published_times():
         one = every.loc[method, value]
         seconds.append(one["seconds"])
         each = 1e6 * one["seconds"] / one["evaluations"]
-        numbers = [one["evaluations"], 1e3 * one["seconds"], each, one["time_error_s"]]
-        row = f"| {shown} | {{}} | {{}} ms | {{}} us | {{}} s |"
-        assert_states(page, row, numbers)
+        row = f"| {shown} | {{}} | {{}} us |"
+        assert_states(page, row, [one["evaluations"], each])
     assert_states(
         page,
         "heyoka, at its most accurate setting, takes {} times",
@@ -294,7 +293,7 @@ def test_the_page_states_the_problems_that_are_proved():
         assert_states(PROBLEMS, sentence, [len(times), closest])
 
 
-def test_the_page_of_problems_shows_the_start_of_a_solution():
+def test_the_page_of_problems_begins_the_file_of_one_as_it_is_proved():
     transitions = solution("uniform").run.transitions
     assert (transitions["mode"] >= 0).all()  # the simplest problem
     for transition in transitions[:3].tolist():
@@ -302,7 +301,7 @@ def test_the_page_of_problems_shows_the_start_of_a_solution():
         assert f"    {row}\n" in (ROOT / PROBLEMS).read_text(encoding="utf-8")
 
 
-def test_the_page_of_problems_has_the_published_methods():
+def test_the_page_of_problems_tells_where_methods_stand():
     truth = solution("fast_drive")
     compared = compare(simulate(truth.run.chain, truth.run.duration), truth)
     (right_until,) = numbers_in(PROBLEMS, "in the right order up to {} s only")

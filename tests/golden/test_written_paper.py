@@ -70,10 +70,11 @@ def test_a_missing_row_or_file_stops_the_build_in_one_line(here):
     with pytest.raises(ValueError, match=rf"^{line}[^\n]*$"):
         write()
     assert not Path("paper.pdf").exists()
-    with pytest.raises(FileNotFoundError, match=r"results/figures/lost\.svg"):
-        write_paper.main(
-            SOURCE / "paper.typ", ["results/figures/lost.svg"], "paper.pdf"
-        )
+    shown = cited_results(SOURCE / "paper.typ")
+    shown.remove("results/figures/hero.svg")
+    line = "paper.typ shows results/figures/hero.svg, which no rule makes: "
+    with pytest.raises(ValueError, match=rf"^paper/{line}[^\n]*$"):
+        write_paper.main(SOURCE / "paper.typ", shown, "paper.pdf")
 
 
 def test_a_finding_that_a_table_contradicts_stops_the_build(here):

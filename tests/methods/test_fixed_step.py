@@ -7,7 +7,7 @@ from maegawa2010.methods import METHODS, DivergedError, runge_kutta
 from maegawa2010.methods.fixed_step import FIRST_ROOM
 from maegawa2010.methods.march import march
 from maegawa2010.methods.runge_kutta import run_rk4
-from maegawa2010.studies.failures.stability import highest_frequency
+from maegawa2010.methods.stability import highest_frequency
 from precursors import Chain, Run, TransitionLimitError, simulate
 from precursors.analysis.agreement import transitions_right
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from maegawa2010.methods import SMOOTH
-from maegawa2010.studies.failures.stability import (
+from maegawa2010.methods.stability import (
     energy_left,
     highest_frequency,
     highest_mode,

@@ -60,7 +60,9 @@ def documented(tmp_path_factory):
                 "".join(line[1:] for line in lines if line[0] in signs)
                 for signs in (" -", " +")
             )
-            workspace.edit(name, old, new)
+            # A reader may have applied it to this repository.
+            if new not in (workspace.path / name).read_text(encoding="utf-8"):
+                workspace.edit(name, old, new)
         elif name:
             (workspace.path / name).parent.mkdir(parents=True, exist_ok=True)
             (workspace.path / name).write_text(code, encoding="utf-8")
@@ -84,6 +86,17 @@ def test_the_example_scene_and_study_are_built(documented):
     outcome = documented.run(*command("A study"))
     assert outcome.code == 0, outcome.text
     assert (documented.path / "results/figures/durations.svg").is_file()
+
+
+def test_a_study_is_removed_by_the_commands_shown(workspace):
+    (commands,) = [code for _, _, code in blocks("Removing a study")]
+    shutil.copytree(ROOT / "tests/studies", workspace.path / "tests/studies")
+    done = subprocess.run(["sh", "-e"], input=commands, text=True, cwd=workspace.path)
+    assert done.returncode == 0
+    assert list(workspace.path.rglob("*step_sweep*")) == []
+    jobs = workspace.would_run()
+    assert "write_paper" in jobs
+    assert "tabulate_step_sweep" not in jobs
 
 
 # Run the test of the example study, draw a chart with the example method, and print its

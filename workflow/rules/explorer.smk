@@ -1,5 +1,5 @@
 rule write_explorer:
-    """Write the page on which the loads are changed and the blocks move."""
+    """Write the interactive page, which solves the chain in the browser."""
     input:
         page=sorted(
             path for path in (PAPERS / "explorer").iterdir() if path.suffix in (".js", ".css", ".html")
@@ -7,7 +7,7 @@ rule write_explorer:
         slips=SLIPS,
         members="results/tables/digits_members.csv",
         shares="results/tables/digits.csv",
-        # to 320 blocks, of the paper's slider
+        # the committed table goes up to 320 blocks
         resolution=(
             COMMITTED / "resolution_full.csv"
             if IS_PAPERS and not config["full"]
@@ -28,7 +28,7 @@ rule write_explorer:
 
 
 rule explorer:
-    """The page results/explorer.html."""
+    """The interactive page results/explorer.html."""
     input:
         rules.write_explorer.output,
     localrule: True

@@ -1,8 +1,8 @@
 """Check the existing results without recomputing them (`make check`): print every claim
 with its verdict.
 
-The exit code is 1 if a verdict is not the expected one, or a result is not as it was
-made.
+The exit code is 1 if a verdict is not the expected one, or if a result has changed
+since it was made.
 """
 
 import sys
@@ -15,8 +15,8 @@ def main(
     results: str | Path = "results",
     expected: str | Path = "tests/golden/claims.csv",
 ) -> None:
-    """Print the claims by the results in a directory, and exit with 1 if something is
-    wrong."""
+    """Print the claims with the verdicts in a results directory; exit with 1 if
+    something is wrong."""
     try:
         claims, wrong = check(Path(results), expected)
     except FileNotFoundError as error:

@@ -1,4 +1,4 @@
-"""How far the transitions of a run are those of another."""
+"""Count the leading transitions in which two runs agree."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -7,13 +7,13 @@ from precursors.solver.run import Record
 
 
 def transitions_right(run: Record, true: Record) -> int:
-    """Number of transitions before the first that is missing or whose block or mode is
-    wrong."""
+    """Return the number of transitions before the first that is missing or has a wrong
+    block or mode."""
     changes = ["block", "mode"]
     return agreeing(run.transitions[changes], true.transitions[changes])
 
 
 def agreeing(mine: NDArray[np.void], theirs: NDArray[np.void]) -> int:
-    """Number of rows that agree before the first that does not, or an end."""
+    """Return the number of leading rows that agree."""
     n = min(len(mine), len(theirs))
     return int(np.argmin(np.append(mine[:n] == theirs[:n], False)))

@@ -1,5 +1,4 @@
-"""Slip events of a run: what they are, the same faster, as a table, and those that
-Fig. 13 counts."""
+"""Slip events of a run: their definition, a fast search, and the events of Fig. 13."""
 
 import math
 from dataclasses import replace
@@ -12,9 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from precursors.model.chain import Chain
 from precursors.solver.run import Record
 
-# Of the mean load: a lighter block may slide on while all others stick.
+# Share of the mean load; a lighter block may go on sliding while all others stick.
 LIGHT = 0.01
-# Columns of `slip_table` that say which slider it was, and its attributes.
+# Columns of `slip_table` that identify the slider, and the attributes of its chain.
 OF_SLIDER = {
     "theta": "theta",
     "n_blocks": "n_blocks",
@@ -33,13 +32,13 @@ class Slip(NamedTuple):
     load_after_N: float  # F_X at the end
     largest_load_N: float  # largest F_X up to the onset
     front: int  # farthest block that slid, 1..N
-    n_slid: int  # blocks that slid at some time
-    n_simultaneous: int  # most blocks that slid at the same instant
+    n_slid: int  # number of blocks that slid
+    n_simultaneous: int  # largest number of blocks that slid at the same instant
     is_global: bool  # all blocks slid at the same instant
 
 
 SLIP = np.dtype(list(get_type_hints(Slip).items()))
-# Of `slip_table`: a slip, whether it is counted, and the slider.
+# A row of `slip_table`: a slip, whether it is counted, and the slider.
 ROW = np.dtype(
     [
         *SLIP.descr,
@@ -51,12 +50,12 @@ ROW = np.dtype(
 
 
 def slip_events_by_definition(run: Record) -> list[Slip]:
-    """The definition of slip events, for reading; `slip_events` finds them faster.
+    """Return the slip events; this code defines them, and `slip_events` is faster.
 
-    An event ends where no block slides, unless the next one releases at the same
-    instant. One that the end of the run cuts off has end and load_after NaN. Blocks
-    without load, or with next to none (`Chain.bears_load`), do not count, but are taken
-    to slide where all others do.
+    An event ends when no block slides, unless another is released at the same instant.
+    If the run ends during an event, its end and load_after are NaN. Blocks with no load
+    or almost none do not count (`Chain.bears_load`), but are assumed to slide if all
+    others do.
     """
     bears_load = run.chain.bears_load
     n_blocks = len(bears_load)
@@ -98,8 +97,10 @@ def slip_events_by_definition(run: Record) -> list[Slip]:
 
 
 def slip_events(run: Record) -> NDArray[np.void]:
-    """The rows of `slip_table`, one for each of `slip_events_by_definition`: an array,
-    which is made in a fifth of the time."""
+    """Return the rows of `slip_table` as an array.
+
+    They are the events of `slip_events_by_definition`, which takes five times as long.
+    """
     time = run.transitions["time"]
     block = run.transitions["block"]
     load = run.transitions["tangential_load"]
@@ -107,7 +108,7 @@ def slip_events(run: Record) -> NDArray[np.void]:
     bears_load = run.chain.bears_load
     n_loaded = bears_load.sum()
     sliding = (run.transitions["mode"] != 0) & bears_load[block - 1]
-    # Sorting by block shows what each block did before.
+    # Sorted by block, the row before is the block's last transition.
     order = np.argsort(block, kind="stable")
     was_sliding = np.zeros(len(block), dtype=bool)
     was_sliding[order[1:]] = (np.diff(block[order]) == 0) & sliding[order][:-1]
@@ -139,7 +140,8 @@ def slip_events(run: Record) -> NDArray[np.void]:
 
 
 def rows_of(slips: NDArray[np.void], chain: Chain) -> NDArray[np.void]:
-    """Rows of `slip_table`, dtype ROW, for slip events of a chain, dtype SLIP."""
+    """Return rows of `slip_table` (dtype ROW) for slip events of a chain (dtype
+    SLIP)."""
     rows = np.empty(len(slips), ROW)
     for name in SLIP.names or ():
         rows[name] = slips[name]
@@ -151,59 +153,62 @@ def rows_of(slips: NDArray[np.void], chain: Chain) -> NDArray[np.void]:
 
 
 def slip_table(run: Record) -> pd.DataFrame:
-    """Every slip event of a run, with units in the names of the columns.
+    """Return all slip events of a run, with units in the names of the columns.
 
-    They are those of `find_slips`, and: counted, the rows of Fig. 13;
-    front_length_m (L_p). theta, n_blocks, normal_load_N (F_Z), slider_length_m
-    (L) and mu_k say which slider it was, the same in every row; theta is NaN where it
-    is not known.
+    The columns are those of `find_slips`, whether Fig. 13 counts the event (counted),
+    and L_p (front_length_m). The others identify the slider and are the same in every
+    row: theta (NaN if unknown), n_blocks, normal_load_N (F_Z), slider_length_m (L) and
+    mu_k.
     """
     return pd.DataFrame(slip_events(run))
 
 
 def find_slips(run: Record) -> pd.DataFrame:
-    """Slip events of a run: maximal time intervals in which at least one block slides.
+    """Return the slip events of a run: maximal time intervals in which a block slides.
 
     Returns
     -------
     DataFrame
         One row per event: onset, end [s], load_before, load_after (F_X at onset and
-        end), largest_load (F_X up to the onset) [N], front (farthest block that slid,
-        1..N), n_slid (blocks that slid at some time), n_simultaneous (most blocks that
-        slid at the same instant), is_global (all N at the same instant). The event that
-        the end of the run cuts off has end and load_after NaN.
+        end), largest_load (largest F_X up to the onset) [N], front (farthest block that
+        slid, 1..N), n_slid (number of blocks that slid), n_simultaneous (largest number
+        that slid at the same instant), is_global (all N slid at the same instant). If
+        the run ends during an event, its end and load_after are NaN.
     """
     slips = slip_table(run)[list(Slip._fields)]
     return slips.rename(columns=lambda name: name.removesuffix("_s").removesuffix("_N"))
 
 
 def find_precursors(slips: pd.DataFrame) -> pd.DataFrame:
-    """Events of Fig. 13: short ones left out, up to and including the first global
-    slip.
+    """Return the events of Fig. 13: those up to the first global slip that are not
+    short.
 
-    An event is short if its front is strictly less than the farthest front before it;
-    equal ones are counted. Without a global slip all events that are not short are
-    returned.
+    The global slip is included. An event is short if its front is strictly less than
+    the farthest front before it. Without a global slip, all events that are not short
+    are returned.
     """
     return slips[counted(slips)]
 
 
 def counted(slips: pd.DataFrame | NDArray[np.void]) -> NDArray[np.bool_]:
-    """Which events Fig. 13 counts: see `find_precursors`."""
+    """Which events Fig. 13 counts (see `find_precursors`)."""
     front = np.asarray(slips["front"])
     is_short = front < np.maximum.accumulate(front)
     return until_global(slips["is_global"]) & ~is_short
 
 
 def until_global(is_global: ArrayLike) -> NDArray[np.bool_]:
-    """Which events come up to and including the first global slip."""
+    """Which events do not come after the first global slip."""
     is_global = np.asarray(is_global, bool)
     return np.cumsum(is_global) - is_global == 0
 
 
-def told_of_light_blocks(run: Record) -> str:
-    """Words about the lightest block, if the run has other slip events with than
-    without the blocks that bear less than `LIGHT`; else empty."""
+def describe_light_blocks(run: Record) -> str:
+    """Describe the lightest block if light blocks change the number of slip events.
+
+    Blocks are light if they bear less than `LIGHT`. The result is "" if their absence
+    changes nothing.
+    """
     chain = run.chain
     light = chain.bears_load & (chain.weights < LIGHT * chain.weights.mean())
     others = replace(run, chain=replace(chain, weights=chain.weights * ~light))

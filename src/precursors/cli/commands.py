@@ -275,9 +275,9 @@ def tell_accuracy(run: Record, first_global_slip: float) -> None:
     """Say if a light block decides what events are, or if roundings decide the first
     global slip [s]."""
     from precursors.analysis.horizon import predicted_errors
-    from precursors.analysis.slips import told_of_light_blocks
+    from precursors.analysis.slips import describe_light_blocks
 
-    if words := told_of_light_blocks(run):
+    if words := describe_light_blocks(run):
         tell(words)
     until = run.transitions[run.transitions["time"] <= first_global_slip]
     if not isinstance(run, Run) or not 0 < len(until) <= MOST_REPEATED:

@@ -8,9 +8,9 @@ import pandas as pd
 import pytest
 from places import made
 
+from maegawa2010.methods.stability import highest_frequency
 from maegawa2010.studies.failures import figure
 from maegawa2010.studies.failures.common import Curve
-from maegawa2010.studies.failures.stability import highest_frequency
 from maegawa2010.studies.failures.tables import FAILURE_MODES
 from precursors import Chain
 

@@ -3,7 +3,7 @@ if len(config["resolution"]["runs"]) != len(config["resolution"]["n_blocks"]):
 
 
 rule run_resolution:
-    """Run a chunk of the chains with other numbers of blocks."""
+    """Simulate one chunk of the runs with other numbers of blocks."""
     output:
         chunk="results/ensembles/resolution_members/{chunk}.csv",
     log:
@@ -20,7 +20,7 @@ rule run_resolution:
 
 
 rule tabulate_resolution:
-    """Sum up the runs with other numbers of blocks."""
+    """Summarise the runs with other numbers of blocks."""
     input:
         chunks=collect("results/ensembles/resolution_members/{chunk}.csv", chunk=CHUNKS),
         noise="results/tables/noise_members.csv",

@@ -25,7 +25,7 @@ rule tabulate_work_precision:
 
 
 rule draw_work_precision:
-    """Draw what accuracy costs, measured by this build and as published for the paper's slider."""
+    """Draw errors against computing time, as measured by this build and as published."""
     input:
         measured="results/tables/work_precision.csv",
         # committed, about the paper's slider

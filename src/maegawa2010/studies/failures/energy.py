@@ -4,13 +4,13 @@ implicit damping."""
 import numpy as np
 
 from maegawa2010.methods import METHODS, ROWS, SMOOTH, DivergedError
-from maegawa2010.studies.failures.common import Curve
-from maegawa2010.studies.failures.stability import (
+from maegawa2010.methods.stability import (
     energy_left,
     highest_frequency,
     highest_mode,
     without_friction,
 )
+from maegawa2010.studies.failures.common import Curve
 from precursors.analysis.summary import apparent_friction
 from precursors.model.chain import Chain
 from precursors.solver.simulate import simulate

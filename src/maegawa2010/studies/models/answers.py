@@ -23,7 +23,7 @@ Model = Callable[[Chain], dict[str, Any]]
 PAPERS_MODEL = "chain"
 # Quantities of a chain up to and including its first global slip, and their units.
 UNITS = {
-    "load_bound": "N",  # largest load of any state of rest (Eq. 13)
+    "load_bound": "N",  # largest load of any state of rest (Eq. 14)
     "first_load": "N",  # load at the onset of the first event
     "events_counted": "1",  # number of events counted in Fig. 13
     "mu_sapp": "1",  # apparent static friction coefficient (Eq. 1)
