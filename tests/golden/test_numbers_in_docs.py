@@ -87,7 +87,7 @@ def worst_error(column: str) -> float:
     return table("solver_vs_proof", "chain")[column][CHAINS].max()
 
 
-def test_readme_tells_the_numbers_of_the_tables():
+def test_readme_has_the_numbers_of_the_table_of_scenes():
     page = "README.md"
     counted = reproduced("events_counted")
     friction = reproduced("mu_sapp")
@@ -102,7 +102,7 @@ def test_readme_tells_the_numbers_of_the_tables():
     assert_limits(page, {"lie within {} of its 0.49": apart})
 
 
-def test_readme_tells_what_was_found():
+def test_readme_has_the_findings_of_the_tables():
     page = "README.md"
     runs = table("balance_runs_full")
     means = pd.concat([runs, table("balance")]).query("mu_k == 0.45")
@@ -140,7 +140,7 @@ def test_readme_tells_what_was_found():
     assert_states(page, sentence, [min(fine), max(fine)])
 
 
-def test_readme_tells_what_eq_15_and_other_readings_give():
+def test_readme_has_the_numbers_of_eq_15_and_other_readings():
     page = "README.md"
     checks = table("eq15", "case", "check")["found"]["fig10"].astype(float)
     assert_states(page, "faster than about {} m/s", [checks["fast"]])
@@ -159,7 +159,7 @@ def test_readme_tells_what_eq_15_and_other_readings_give():
         assert_states(page, sentence, [one.events_counted, one.mu_sapp])
 
 
-def test_docs_tell_how_far_the_numbers_can_be_trusted():
+def test_docs_have_the_accuracy_and_the_medians_of_the_tables():
     page = "docs/numbers.md"
     assert_states(
         page,
@@ -205,7 +205,7 @@ def test_docs_tell_how_far_the_numbers_can_be_trusted():
     assert_states(page, "is larger by {} to {}.", ends, NOISE)
 
 
-def test_docs_tell_how_fragile_the_numbers_are():
+def test_docs_have_the_numbers_of_other_digits():
     page = "docs/numbers.md"
     thetas = ["0.833", "5/6", "0.8333343"]
     runs = [simulate(Chain.from_slider(theta=theta)) for theta in thetas]
@@ -227,7 +227,7 @@ def test_docs_tell_how_fragile_the_numbers_are():
     assert_states(caption, "of {} sliders", digits["n"][:1])
 
 
-def test_the_caption_of_the_wave_tells_where_precursors_stop():
+def test_the_caption_of_the_wave_names_where_precursors_stop():
     first = table("fig10_slips").query("is_global").index[0]
     precursors = table("fig10_slips")["front"][:first]
     sentence = "The precursors stop after blocks 4 and {}."
@@ -235,7 +235,7 @@ def test_the_caption_of_the_wave_tells_where_precursors_stop():
     assert_states("README.md", "after block 4 and block {};", [precursors.max()])
 
 
-def test_docs_tell_the_published_times():
+def test_docs_have_the_published_times():
     page = "docs/performance.md"
     heyoka = table("beside_heyoka", "case", "quantity", "measurement").xs(
         "heyoka", level=2
@@ -293,7 +293,7 @@ def test_the_page_states_the_problems_that_are_proved():
         assert_states(PROBLEMS, sentence, [len(times), closest])
 
 
-def test_the_page_of_problems_begins_the_file_of_one_as_it_is_proved():
+def test_the_page_of_problems_shows_the_start_of_a_solution():
     transitions = solution("uniform").run.transitions
     assert (transitions["mode"] >= 0).all()  # the simplest problem
     for transition in transitions[:3].tolist():
@@ -301,7 +301,7 @@ def test_the_page_of_problems_begins_the_file_of_one_as_it_is_proved():
         assert f"    {row}\n" in (ROOT / PROBLEMS).read_text(encoding="utf-8")
 
 
-def test_the_page_of_problems_tells_where_methods_stand():
+def test_the_page_of_problems_has_the_published_methods():
     truth = solution("fast_drive")
     compared = compare(simulate(truth.run.chain, truth.run.duration), truth)
     (right_until,) = numbers_in(PROBLEMS, "in the right order up to {} s only")
