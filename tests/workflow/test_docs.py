@@ -90,7 +90,11 @@ def test_the_example_scene_and_study_are_built(documented):
 
 def test_a_study_is_removed_by_the_commands_shown(workspace):
     (commands,) = [code for _, _, code in blocks("Removing a study")]
-    shutil.copytree(ROOT / "tests/studies", workspace.path / "tests/studies")
+    shutil.copytree(
+        ROOT / "tests/studies",
+        workspace.path / "tests/studies",
+        ignore=shutil.ignore_patterns("__pycache__"),
+    )
     subprocess.run("sh", input=commands, text=True, cwd=workspace.path)
     assert list(workspace.path.rglob("*step_sweep*")) == []
     jobs = workspace.would_run()
