@@ -8,12 +8,7 @@ rule write_explorer:
         balance="results/tables/balance.csv",
         members="results/tables/digits_members.csv",
         shares="results/tables/digits.csv",
-        # to 320 blocks, of the paper's slider
-        resolution=(
-            COMMITTED / "resolution_full.csv"
-            if IS_PAPERS and not config["full"]
-            else "results/tables/resolution.csv"
-        ),
+        resolution="results/tables/resolution.csv",
     output:
         page="results/explorer.html",
     log:

@@ -3,7 +3,7 @@ from maegawa2010.paper.shown import results_shown
 
 PAPER_SOURCE = ROOT / "paper"
 # The article is about the paper's slider, and is not made for another.
-PAPER = ["results/paper.pdf", "results/supplement.pdf"] if IS_PAPERS else []
+PAPER = ["results/paper.pdf", "results/supplement.pdf"] if HAS_LONG else []
 
 
 rule eq15:
@@ -29,6 +29,7 @@ if set(PAPERS_SCENES) <= set(FIG13):
         """Judge the paper's claims by the tables."""
         input:
             tables=collect("results/tables/{table}.csv", table=sorted({*CLAIM_TABLES, *POINT_TABLES})),
+            checks=["results/tables/committed_resolution.csv"] if IS_COMMITTED else [],
             said=[PAPERS / f"paper/{said}.csv" for said in ("claims", "open_points")],
         output:
             claims=report("results/tables/claims.csv", category="Tables"),
@@ -102,9 +103,10 @@ rule paper:
 
 
 onstart:
-    if not IS_PAPERS:
+    if not HAS_LONG:
+        own = "study resolution" if IS_PAPERS else "slider"
         print(
-            "paper.pdf is not made: it is about the paper's slider, and this is another one",
+            f"paper.pdf is not made: it is about the paper's {own}, and this is another one",
             file=sys.stderr,
         )
 

@@ -94,19 +94,19 @@ def hand_on(
 
 
 def provenance_table(
-    tables: Mapping[str, Path], origins: Mapping[str, tuple[str, Any]], commit: str
+    tables: Iterable[str], origins: Mapping[str, tuple[str, Any]], commit: str
 ) -> pd.DataFrame:
-    """Where committed tables come from: the rule, the commit, the seed if there is one,
-    and the checksum of each; `origins` has rule and seed by name."""
+    """Where tables of these files come from: the rule, the commit, the seed if there is
+    one, and the checksum of each; `origins` has rule and seed by name."""
     return pd.DataFrame(
         {
-            "table": name,
-            "rule": origins[name][0],
+            "table": path.stem,
+            "rule": origins[path.stem][0],
             "commit": commit,
-            "seed": origins[name][1],
+            "seed": origins[path.stem][1],
             "sha256": hashlib.sha256(read_bytes(path)).hexdigest(),
         }
-        for name, path in tables.items()
+        for path in map(Path, tables)
     )
 
 
