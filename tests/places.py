@@ -1,4 +1,4 @@
-"""Where files lie that several tests read, and tables of the build and of long studies."""
+"""Where files lie that several tests read, and tables of the build."""
 
 from pathlib import Path
 
@@ -13,8 +13,3 @@ CERTIFICATES = ROOT / "src/precursors/benchmark/certificates"
 def made(name: str) -> pd.DataFrame:
     """A table that `make all` made."""
     return pd.read_csv(RESULTS / f"tables/{name}.csv")
-
-
-def committed(name: str) -> pd.DataFrame:
-    """A table of a long study, which is committed."""
-    return pd.read_csv(ROOT / f"paper/tables/{name}.csv")

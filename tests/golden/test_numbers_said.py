@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import pandas as pd
 import pytest
-from places import ROOT, committed, made
+from places import ROOT, made
 
 from precursors import Chain, simulate, summarise
 from precursors.benchmark.compare import compare
@@ -28,8 +28,7 @@ NUMBER = r"([-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?)"
 
 
 def table(name: str, *index: str) -> pd.DataFrame:
-    is_long = name.endswith(("_full", "heyoka"))
-    found = committed(name) if is_long else made(name)
+    found = made(name)
     return found.set_index(list(index)).sort_index() if index else found
 
 
@@ -66,7 +65,7 @@ def reproduced(quantity: str) -> list[float]:
 
 def medians(quantity: str, n_blocks: int) -> list[float]:
     """With noise in the loads, at the three loadings."""
-    found = table("resolution_full", "quantity", "n_blocks", "scene")["q50"]
+    found = table("resolution", "quantity", "n_blocks", "scene")["q50"]
     return found[quantity, n_blocks][SCENES].tolist()
 
 
@@ -92,7 +91,7 @@ def test_readme_tells_the_numbers_of_the_tables():
     counted = reproduced("events_counted")
     friction = reproduced("mu_sapp")
     sliders = table("digits")["n"].max()
-    means = table("balance_runs_full").query("varied != 'mu_k'")
+    means = table("balance_runs").query("varied != 'mu_k'")
     lowest = means.min(numeric_only=True)
     highest = means.max(numeric_only=True)
     ends = [end[name] for name in ("mean", "largest") for end in (lowest, highest)]
@@ -209,7 +208,7 @@ def test_docs_tell_the_published_times():
             row = f"| {theta} | {run.removeprefix('to the ')} | {{}} ({{}} to {{}}) | {{}} s | {{}} s |"
             ratios = ratio[["value", "least", "largest"]]
             assert_told(page, row, [*ratios, *errors])
-    every = table("work_precision_full", "method", "value")
+    every = table("speed", "method", "value")
     seconds = []
     for method, value, shown in (
         ("exact", 0.0, "exact"),
@@ -265,7 +264,7 @@ def test_the_page_of_problems_tells_where_methods_stand():
     compared = compare(simulate(truth.run.chain, truth.run.duration), truth)
     (right_until,) = told(PROBLEMS, "in the right order up to {} s only")
     assert compared.first_difference >= float(right_until)
-    every = table("work_precision_full")
+    every = table("speed")
     assert_told(PROBLEMS, "right, of {} |", every["transitions_true"][:1])
     for _, settings in every.groupby("method"):
         best = settings.loc[settings["time_error_s"].idxmin()]

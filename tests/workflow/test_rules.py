@@ -43,7 +43,7 @@ def test_every_rule_says_what_it_does_and_a_job_has_its_log_place_and_digest(fil
     assert len(rules) == len(re.findall("^ *rule ", text, re.MULTILINE))
     for _, name, body in rules:
         assert re.match(r' +"""\w.+\."""\n', body), name
-        script = re.search(r"(\w+)\.py", body)
+        script = re.search(r'script:\s+"[\w./]*?(\w+)\.py"', body)
         assert ("localrule: True" in body) != ("seconds=" in body), name
         if script:
             assert "log:" in body, name

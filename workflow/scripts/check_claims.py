@@ -16,6 +16,7 @@ import pandas as pd
 
 from maegawa2010.paper.claim import EXPERIMENT, IN_WORDS, READINGS, RESULT
 from maegawa2010.paper.claims import differences, evaluate
+from maegawa2010.paper.committed import agreement, comparisons
 from maegawa2010.paper.inputs import CLAIM_TABLES, SCENES
 from maegawa2010.scenes import is_papers
 from maegawa2010.support.provenance import NOT_RESULTS, checksums
@@ -45,14 +46,18 @@ def main(
     if told and not is_papers(told["config"], SCENES):
         sys.exit("check: config.yaml is not the paper's: nothing to compare")
     try:
+        again = comparisons(tables)
         found = evaluate(
             {name: read_table(Path(tables, f"{name}.csv")) for name in CLAIM_TABLES}
+            | again
         )
     except FileNotFoundError as error:
         sys.exit(f"check: {error.filename} is missing: run make all first")
     except (OSError, ValueError) as error:
         sys.exit(f"check: {error}")
     print(printed(found))
+    if again:
+        print(f"\nCommitted tables: {agreement(pd.concat(again.values()))}.")
     unexpected = differences(found, read_table(expected))
     unexpected += changed(results, told.get("outputs", {}))
     if unexpected:
