@@ -13,7 +13,7 @@ ifeq ($(XDG_CACHE_HOME)$(shell test -w "$$HOME" && echo home),)
 export XDG_CACHE_HOME := $(CURDIR)/.snakemake/cache
 endif
 
-TARGETS := all test test-cluster results check report golden docs bench speed codecheck lock lint clean
+TARGETS := all test test-cluster results check report golden docs bench article codecheck lock lint clean
 .PHONY: $(TARGETS)
 
 all: results
@@ -56,9 +56,9 @@ docs: $(DEV)
 bench: $(READY)
 	$(BIN)/python benchmarks/bench.py $(if $(filter-out undefined,$(origin METHOD)),--method "$(METHOD)")
 
-# Measures the published medians and ranges; takes some minutes, with nothing else running.
-speed: $(READY)
-	$(BIN)/python benchmarks/bench.py --sessions 5 --output paper/tables/beside_heyoka.csv
+# The long studies that the article shows: half an hour with nothing else running, because two of them measure times.
+article: $(READY)
+	$(BIN)/snakemake --quiet rules host -c1 --directory full --configfile config.yaml workflow/full.yaml -- article
 
 lint: $(DEV)
 	$(BIN)/ruff check . && $(BIN)/ruff format --check . && $(BIN)/snakefmt --check Snakefile workflow && $(BIN)/mypy && $(BIN)/lint-imports
@@ -68,7 +68,7 @@ lock: $(READY)
 	$(BIN)/uv pip compile $(LOCK) --all-extras -c requirements.lock -o requirements-dev.lock
 
 clean:
-	rm -rf .venv .snakemake
+	rm -rf .venv .snakemake full
 	find results -mindepth 1 ! -path results/README.md -delete
 
 $(READY): requirements.lock

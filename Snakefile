@@ -21,6 +21,8 @@ include: "workflow/studies/balance/rules.smk"
 include: "workflow/studies/failures/rules.smk"
 include: "workflow/studies/step_sweep/rules.smk"
 include: "workflow/studies/work_precision/rules.smk"
+# Tables of long studies, in a full build
+include: "workflow/rules/article.smk"
 # The interactive page
 include: "workflow/rules/explorer.smk"
 

@@ -2,7 +2,6 @@
 proofs.
 
     make bench                 everything, in a minute or two
-    make speed                 everything five times, for paper/tables/beside_heyoka.csv
     make bench METHOD=name     one method, in seconds
 
 With --quick the sizes are reduced, to test that it runs.
@@ -41,16 +40,19 @@ from maegawa2010.methods.common import Result
 from maegawa2010.methods.heyoka_events import solve_heyoka
 from maegawa2010.methods.scipy_events import solve_scipy
 from maegawa2010.studies.work_precision.tables import (
+    DURATION,
+    ENDS,
     LONGEST,
+    PROBLEMS,
     ROUNDS,
     charted_values,
+    errors_of,
     measure_methods,
+    truth_of,
 )
 from maegawa2010.support import timing
 from precursors import Chain, Record, simulate, simulate_many
-from precursors.benchmark.compare import compare
 from precursors.benchmark.score import solution
-from precursors.model.checks import Until
 from precursors.model.statics import maximal_strain_positions
 from precursors.solver.simulate import TransitionLimitError
 from precursors.support.compiled import untyped
@@ -58,11 +60,8 @@ from precursors.support.files import write_table
 
 ROOT = Path(__file__).resolve().parent.parent
 TABLE = ROOT / "results" / "tables" / "bench.csv"
-DURATION = 10.0  # s; runs to the first global slip end before
 HEYOKA_TOLERANCE = 0.0  # its default, machine precision
 DOP853_TOLERANCE = 1e-13
-PROBLEMS = {"0": "uniform", "-5/6": "trailing", "5/6": "leading"}
-ENDS: dict[str, Until] = {"to the first global slip": "global slip", "10 s": None}
 ENSEMBLE, HEYOKA_ENSEMBLE = 2000, 100
 # The chain starts strained and is driven fast, so that all of it slips without a pause.
 LONG_CHAIN, SHORT_CHAIN, STRAIN, FAST_DRIVE = (
@@ -201,26 +200,16 @@ def compared(
         "exact": partial(simulate, chain, DURATION, until),
         other: lambda: solve().run,
     }
-    truth = solution(PROBLEMS[theta])
-    if until is not None:
-        truth = truth.until_global_slip()
+    truth = truth_of(theta, end)
     timings = measure(tasks)
     wall, cpu = timings["exact"].times_faster_than(timings[other])
     row = partial(_row, other, f"theta = {theta}, {end}")
     yield row(f"time of {other} / exact", "1", wall)
     yield row(f"processor time of {other} / exact", "1", cpu)
     for name, task in tasks.items():
-        comparison = compare(task(), truth)
         yield row(f"time of {name}", "ms", 1e3 * timings[name].seconds)
-        yield row(
-            f"transitions of {name} right, of {comparison.transitions_true}",
-            "1",
-            comparison.transitions_right,
-        )
-        yield row(f"largest error of their times, {name}", "s", comparison.time_error)
-        yield row(
-            f"largest error of F_X at slip onsets, {name}", "N", comparison.load_error
-        )
+        for quantity, unit, value in errors_of(name, task(), truth):
+            yield row(quantity, unit, value)
 
 
 def ensemble(measure: Callable[..., Any], quick: bool) -> Iterable[Row]:

@@ -1,4 +1,4 @@
-"""Paths that several tests need, and tables of the build and of long studies."""
+"""Paths that several tests need, and tables of the build."""
 
 from pathlib import Path
 
@@ -13,8 +13,3 @@ CERTIFICATES = ROOT / "src/precursors/benchmark/certificates"
 def made(name: str) -> pd.DataFrame:
     """A table of `make all`."""
     return pd.read_csv(RESULTS / f"tables/{name}.csv")
-
-
-def committed(name: str) -> pd.DataFrame:
-    """A committed table of a long study."""
-    return pd.read_csv(ROOT / f"paper/tables/{name}.csv")

@@ -7,7 +7,7 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 
 from maegawa2010 import printed
-from maegawa2010.config import load_config, read_file
+from maegawa2010.config import load_config, long_settings, read_file
 from maegawa2010.paper.inputs import SCENES as PAPERS_SCENES
 from maegawa2010.scenes import (
     is_papers,
@@ -23,7 +23,7 @@ from precursors.model.chain import parse_theta
 ROOT = Path(os.path.relpath(workflow.current_basedir.get_path_or_uri(secret_free=True))).parent
 PAPERS = ROOT / "src/maegawa2010"
 PROOFS = ROOT / "src/precursors/benchmark/certificates"  # committed
-COMMITTED = ROOT / "paper/tables"  # results of long studies of the paper's slider
+COMMITTED = ROOT / "paper/tables"  # results of long studies of the paper's slider: `article` makes them
 # Each rule takes a checksum of its script and all imported code as a parameter, so that its jobs run again if code changes.
 digest = partial(digest_code, ROOT)
 
@@ -38,6 +38,7 @@ except ValueError as error:
 configfile: "config.yaml"
 
 
+GIVEN = set(config)  # sections, before those of the settings
 try:
     config.update(load_config(config, contents, ROOT / "workflow"))
 except ValueError as error:
@@ -53,6 +54,12 @@ FIG13 = config["fig13"]
 MORE_FORMATS = [name for name in config["figure_formats"] if name != "svg"]
 SLIDERS = {scene: scene_slider(config, scene) for scene in FIG13}
 IS_PAPERS = is_papers(config, PAPERS_SCENES)
+# Tables of long studies are there for the paper's slider: a full build makes them, another one hands the committed
+# ones on and checks them, unless it has a study of resolution of its own.
+HAS_LONG = IS_PAPERS and (config["full"] or "resolution" not in GIVEN)
+IS_COMMITTED = HAS_LONG and not config["full"]
+LONG_SETTINGS = long_settings(ROOT / "workflow")  # with which they were made
+PUBLISHED = {}  # rule and seed of each of these tables, in a full build
 RUNS = collect("results/runs/{scene}.h5", scene=FIG13)
 SLIPS = collect("results/tables/{scene}_slips.csv", scene=FIG13)
 # Targets of `all`. Each file of rules adds its own, so `all` and write_provenance must come after the includes.

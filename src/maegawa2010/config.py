@@ -102,6 +102,13 @@ def read_settings(workflow: Path) -> dict[str, dict[str, Any]]:
     }
 
 
+def long_settings(workflow: Path) -> dict[str, Any]:
+    """The settings of full studies, those of each in its section."""
+    settings = dict(ChainMap(*read_settings(workflow).values()))
+    update_config(settings, read_file(workflow / "full.yaml"))
+    return settings
+
+
 def read_file(path: AnyPath) -> dict[str, Any]:
     """Read a YAML file.
 

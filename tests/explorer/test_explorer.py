@@ -16,7 +16,7 @@ from explorer.example import (
     TOLERANCE,
     drawn_from,
 )
-from places import committed, made
+from places import made
 
 from precursors import Chain, apparent_friction, cli, simulate, slip_table, summarise
 from precursors.analysis.horizon import horizon
@@ -230,7 +230,7 @@ def test_the_steps_have_the_numbers_of_the_tables(page, file):
     )
     studies = made("digits").set_index(["scene", "quantity", "question"])["share"]
     in_band = [100 * studies[scene, "mu_sapp", "as_printed"] for scene in SCENES]
-    full = committed("resolution_full")
+    full = made("resolution")
     medians = full.query("quantity == 'mu_sapp'").pivot_table(
         index="scene", columns="n_blocks", values="q50"
     )

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import pandas as pd
 import pytest
-from places import ROOT, committed, made
+from places import ROOT, made
 
 from precursors import Chain, simulate, summarise
 from precursors.benchmark.compare import compare
@@ -28,8 +28,7 @@ NUMBER = r"([-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?)"
 
 
 def table(name: str, *index: str) -> pd.DataFrame:
-    is_long = name.endswith(("_full", "heyoka"))
-    rows = committed(name) if is_long else made(name)
+    rows = made(name)
     return rows.set_index(list(index)).sort_index() if index else rows
 
 
@@ -66,7 +65,7 @@ def reproduced(quantity: str) -> list[float]:
 
 def medians(quantity: str, n_blocks: int) -> list[float]:
     """Medians over noise in the loads, for the three loadings."""
-    values = table("resolution_full", "quantity", "n_blocks", "scene")["q50"]
+    values = table("resolution", "quantity", "n_blocks", "scene")["q50"]
     return values[quantity, n_blocks][SCENES].tolist()
 
 
@@ -104,7 +103,7 @@ def test_readme_has_the_numbers_of_the_table_of_scenes():
 
 def test_readme_has_the_findings_of_the_tables():
     page = "README.md"
-    runs = table("balance_runs_full")
+    runs = table("balance_runs")
     means = pd.concat([runs, table("balance")]).query("mu_k == 0.45")
     lowest = means.min(numeric_only=True)
     highest = means.max(numeric_only=True)
@@ -184,13 +183,13 @@ def test_docs_have_the_accuracy_and_the_medians_of_the_tables():
     assert_states(page, "tenfold in {} to {} s", tenfold, EXPONENT)
     verdicts = table("resolution_differences").query("quantity == 'mu_sapp'")
     differ = verdicts.query("verdict != 'same'")["n_blocks"].max()
-    fine = table("resolution_full").query("quantity == 'mu_sapp' and n_blocks == 320")
+    fine = table("resolution").query("quantity == 'mu_sapp' and n_blocks == 320")
     assert_states(
         page,
         "are {} to {}, and nine tenths of the runs lie between {} and {};",
         [fine["q50"].min(), fine["q50"].max(), fine["q05"].min(), fine["q95"].max()],
     )
-    heavy = table("balance_loads_full", "load", "n_blocks").loc["heavy last", 320]
+    heavy = table("balance_loads", "load", "n_blocks").loc["heavy last", 320]
     assert_states(page, "on the last of 320 blocks the median is {}.", [heavy["q50"]])
     agree = verdicts["n_blocks"][verdicts["n_blocks"] > differ].min()
     assert_states(page, "from {} blocks on", [agree])
@@ -251,7 +250,7 @@ def test_docs_have_the_published_times():
             row = f"| {theta} | {run.removeprefix('to the ')} | {{}} ({{}} to {{}}) | {{}} s | {{}} s |"
             ratios = ratio[["value", "least", "largest"]]
             assert_states(page, row, [*ratios, *errors])
-    every = table("work_precision_full", "method", "value")
+    every = table("speed", "method", "value")
     seconds = []
     for method, value, shown in (
         ("exact", 0.0, "exact"),
@@ -306,7 +305,7 @@ def test_the_page_of_problems_has_the_published_methods():
     compared = compare(simulate(truth.run.chain, truth.run.duration), truth)
     (right_until,) = numbers_in(PROBLEMS, "in the right order up to {} s only")
     assert compared.first_difference >= float(right_until)
-    every = table("work_precision_full")
+    every = table("speed")
     assert_states(PROBLEMS, "right, of {} |", every["transitions_true"][:1])
     for _, settings in every.groupby("method"):
         best = settings.loc[settings["time_error_s"].idxmin()]

@@ -1,25 +1,18 @@
-"""The published comparison of methods, and that of the build.
-
-`snakemake -c2 --configfile config.yaml workflow/full.yaml -- accuracy` measures again in
-about ten minutes if nothing else runs. Its table and speed.png then replace
-paper/tables/work_precision_full.csv and the golden chart.
-"""
+"""The comparison of methods, as published (`make article`) and of the build."""
 
 import pytest
 from colorspacious import cspace_convert
 from matplotlib.colors import to_rgb
-from places import committed, made
+from places import made
 
 from maegawa2010.studies.work_precision.figure import draw
 
 LEAST_CONTRAST = 4.5  # of words on white (WCAG)
 
 
-@pytest.mark.parametrize(
-    ("read", "name"), [(committed, "work_precision_full"), (made, "work_precision")]
-)
-def test_every_method_as_accurate_as_the_exact_solver_is_slower(read, name):
-    table = read(name)
+@pytest.mark.parametrize("name", ["speed", "work_precision"])
+def test_every_method_as_accurate_as_the_exact_solver_is_slower(name):
+    table = made(name)
     assert set(table["scene"]) == {"uniform"}
     is_right = table["transitions_right"].eq(table["transitions_true"])
     (exact,) = table[is_right & table["method"].eq("exact")].to_dict("records")
@@ -30,7 +23,7 @@ def test_every_method_as_accurate_as_the_exact_solver_is_slower(read, name):
 
 
 def test_words_of_the_published_chart_stand_out_from_white():
-    (axes,) = draw(committed("work_precision_full"), compared="heyoka").axes
+    (axes,) = draw(made("speed"), compared="heyoka").axes
     words = {text.get_text(): text.get_color() for text in axes.texts}
     assert {"heyoka", "RK4,\nlocated", "11 times"} <= words.keys()
     for color in words.values():

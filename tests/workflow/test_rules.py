@@ -42,7 +42,7 @@ def test_a_rule_has_a_docstring_and_a_job_a_log_and_a_digest(file):
     assert len(rules) == len(re.findall("^ *rule ", text, re.MULTILINE))
     for _, name, body in rules:
         assert re.match(r' +"""\w.+\."""\n', body), name
-        script = re.search(r"(\w+)\.py", body)
+        script = re.search(r'script:\s+"[\w./]*?(\w+)\.py"', body)
         assert ("localrule: True" in body) != ("seconds=" in body), name
         if script:
             assert "log:" in body, name

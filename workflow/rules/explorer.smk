@@ -7,12 +7,7 @@ rule write_explorer:
         slips=SLIPS,
         members="results/tables/digits_members.csv",
         shares="results/tables/digits.csv",
-        # the committed table goes up to 320 blocks
-        resolution=(
-            COMMITTED / "resolution_full.csv"
-            if IS_PAPERS and not config["full"]
-            else "results/tables/resolution.csv"
-        ),
+        resolution="results/tables/resolution.csv",
     output:
         page="results/explorer.html",
     log:

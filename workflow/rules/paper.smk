@@ -3,7 +3,7 @@ from maegawa2010.paper.documents import cited_results
 
 PAPER_SOURCE = ROOT / "paper"
 # The article describes the paper's slider, so it is not made for another.
-PAPER = ["results/paper.pdf", "results/supplement.pdf"] if IS_PAPERS else []
+PAPER = ["results/paper.pdf", "results/supplement.pdf"] if HAS_LONG else []
 
 
 rule eq15:
@@ -29,6 +29,7 @@ if set(PAPERS_SCENES) <= set(FIG13):
         """Evaluate the paper's claims from the tables."""
         input:
             tables=collect("results/tables/{table}.csv", table=sorted({*CLAIM_TABLES, *POINT_TABLES})),
+            checks=["results/tables/committed_resolution.csv"] if IS_COMMITTED else [],
             said=[PAPERS / f"paper/{said}.csv" for said in ("claims", "open_points")],
         output:
             claims=report("results/tables/claims.csv", category="Tables"),
@@ -107,9 +108,10 @@ rule paper:
 
 
 onstart:
-    if not IS_PAPERS:
+    if not HAS_LONG:
+        own = "study resolution" if IS_PAPERS else "slider"
         print(
-            "paper.pdf is not made: it describes the paper's slider, and this is another one",
+            f"paper.pdf is not made: it describes the paper's {own}, and this is another one",
             file=sys.stderr,
         )
 

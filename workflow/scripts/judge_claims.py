@@ -4,6 +4,7 @@ from maegawa2010.support.job import job, read_all, write_tables
 from precursors.support.files import read_table
 
 with job() as snakemake:
-    tables = read_all(read_table, snakemake.input.tables)
+    inputs = snakemake.input
+    tables = read_all(read_table, [*inputs.tables, *inputs.checks])
     found = {"claims": evaluate(tables), "open_points": open_points_table(tables)}
     write_tables(found, snakemake.output)

@@ -12,6 +12,7 @@ import pandas as pd
 
 from maegawa2010.paper.claim import EXPERIMENT, IN_WORDS, READINGS, RESULT
 from maegawa2010.paper.claims import differences, evaluate
+from maegawa2010.paper.committed import agreement, comparisons
 from maegawa2010.paper.inputs import CLAIM_TABLES, SCENES
 from maegawa2010.scenes import is_papers
 from maegawa2010.support.provenance import NOT_RESULTS, checksums
@@ -45,9 +46,12 @@ def check(results: Path, expected: AnyPath) -> tuple[str, list[str]]:
     if made and not is_papers(made["config"], SCENES):
         raise ValueError("config.yaml is not the paper's: nothing to compare")
     tables = {name: read_table(results / f"tables/{name}.csv") for name in CLAIM_TABLES}
-    claims = evaluate(tables)
+    again = comparisons(results / "tables")
+    claims = evaluate(tables | again)
     wrong = differences(claims, read_table(expected))
     text = in_words(claims)
+    if again:
+        text += f"\n\nCommitted tables: {agreement(pd.concat(again.values()))}."
     if made:
         newer, changed = changes(results, path.stat().st_mtime, made["outputs"])
         if newer:

@@ -18,6 +18,7 @@ import scipy
 
 from maegawa2010 import printed
 from maegawa2010.paper.claim import Find, Finding, in_draws, judged, shown
+from maegawa2010.paper.committed import agreement
 from maegawa2010.paper.inputs import LEADING, SCENES, TRAILING, UNIFORM
 from maegawa2010.paper.tables import Tables, before_global, cell, rows
 from precursors.analysis.slips import until_global
@@ -203,6 +204,8 @@ def friction_independent_of_loading(t: Tables) -> Finding:
     fine = pairs[pairs["n_blocks"] >= CUT_FINELY]
     largest = fine["difference"].abs().groupby(fine["n_blocks"]).max()
     note = f"The largest with {', '.join(map(str, largest.index))} blocks."
+    if "committed_resolution" in t:
+        note += f" Of a committed study: {agreement(t['committed_resolution'])}."
     return Finding(largest, all_same(fine), note=note)
 
 

@@ -9,18 +9,25 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from maegawa2010.studies.members import Study, chain_of
-from precursors.analysis.slips import slip_events
+from precursors.analysis.horizon import horizon
+from precursors.analysis.slips import slip_events, slip_table, until_global
 from precursors.analysis.summary import summarise
 from precursors.model.chain import Chain
 from precursors.solver.many import simulate_many
 from precursors.solver.run import Record, Run
-from precursors.solver.simulate import TransitionLimitError
+from precursors.solver.simulate import TransitionLimitError, simulate
 from precursors.support.files import write_table
 
 # A batch is held in memory: 200 runs of 10 blocks, or 10 runs of 200 blocks.
 BLOCKS_PER_BATCH = 2000
 # L_p/L beyond which the experiment's precursors grow faster (Sect. 6.1).
 KINK = 0.7
+# Error of a transition's time from which on single events are not predicted, and how far
+# runs are tried for it: with many blocks it grows fast, and trying takes 24 runs.
+UNPREDICTED_S = 1e-6
+BLOCK_SECONDS_TRIED = 200.0
+# A run that is made again ends so much before that, or where it ends by itself.
+BEFORE = 0.99
 
 
 def run_chunk(study: Study, chunk: str, path: str) -> None:
@@ -93,3 +100,29 @@ def speedup(slips: NDArray[np.void]) -> float:
     if rise[0] <= 0 or span[1] <= 0:
         return math.nan
     return float(rise[1] * span[0] / (rise[0] * span[1]))
+
+
+def predictable(run: Run) -> float:
+    """Time until which single events are predicted [s]; at most what is tried."""
+    tried = min(run.duration, BLOCK_SECONDS_TRIED / run.chain.n_blocks)
+    same = simulate(run.chain, tried, start_positions=run.start_positions)
+    return horizon(same, UNPREDICTED_S)
+
+
+def known_until(run: Run) -> float:
+    """Time until which a run can be made again on any machine [s]."""
+    until = predictable(run)
+    return until if until == run.duration else BEFORE * until
+
+
+def so_far(run: Run) -> dict[str, float]:
+    """The numbers of a run up to its first global slip, or to its end before that:
+    mu_sapp is the largest F_X/F_Z, global_slip_s the onset of the last event."""
+    slips = slip_table(run)
+    slips = slips[until_global(slips["is_global"])]
+    return {
+        "events_to_global_slip": len(slips),
+        "events_counted": int(slips["counted"].sum()),
+        "mu_sapp": slips["largest_load_N"].max() / run.chain.normal_load,
+        "global_slip_s": slips["onset_s"].max(),
+    }

@@ -1,21 +1,24 @@
 """Each number is tabulated for every N."""
 
-import pandas as pd
-from places import committed, made
+from places import ROOT, made
+from settings import CONFIG, SLIDERS
 
+from maegawa2010.config import long_settings
 from maegawa2010.studies.resolution import figure
-from maegawa2010.studies.resolution import tables as resolution
+from maegawa2010.studies.resolution.tables import check, resolution_study
+
+FACTOR = 1.37
+FORCES = ("normal_load", "slider_mass", "youngs_modulus", "drive_stiffness")
 
 
 def numbers_by_n():
-    finer = committed("resolution_full")
-    return figure.draw(made("resolution"), papers_n=10, mu_k=0.45, finer=finer)
+    return figure.draw(made("resolution"), papers_n=10, mu_k=0.45)
 
 
 PICTURES = {"resolution": numbers_by_n}
 
 
-def test_a_finer_study_is_drawn_to_its_end_and_the_title_says_where_it_ends():
+def test_the_study_is_drawn_to_its_end_and_the_title_says_where():
     counts, frictions = numbers_by_n().axes
     for axes in (counts, frictions):
         assert max(line.get_xdata()[-1] for line in axes.lines[:9]) == 320
@@ -23,9 +26,17 @@ def test_a_finer_study_is_drawn_to_its_end_and_the_title_says_where_it_ends():
     assert frictions.get_title() == r"With many blocks, every median is near $\mu_k$"
 
 
-def test_differences_of_a_finer_study_take_the_place_of_those_with_the_same_n():
-    own = pd.DataFrame({"n_blocks": [10, 20, 20], "low": 1.0})
-    finer = pd.DataFrame({"n_blocks": [20, 40], "low": 2.0})
-    found = resolution.with_finer(own, [finer])
-    assert found["n_blocks"].tolist() == [10, 20, 40]
-    assert found["low"].tolist() == [1.0, 2.0, 2.0]
+def test_the_first_runs_are_the_same_with_other_roundings():
+    """With all forces and masses times a factor the motion is the same."""
+    there = {name: made(name) for name in ("resolution", "resolution_differences")}
+    scaled = {
+        scene: slider | {name: FACTOR * slider[name] for name in FORCES}
+        for scene, slider in SLIDERS.items()
+    }
+    settings = long_settings(ROOT / "workflow")["resolution"]
+    study = resolution_study(scaled, CONFIG["duration"], settings)
+    found = check(there, study, noise={})
+    assert found["agrees"].all(), found[~found["agrees"]]
+    again = found.query("quantity == 'first'")
+    assert (again["made"] != again["committed"]).any()
+    assert len(again) == 4 * 3 * len(settings["n_blocks"])

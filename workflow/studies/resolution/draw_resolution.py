@@ -5,7 +5,6 @@ from precursors.support.files import read_table
 
 with job() as snakemake:
     table = read(read_table, snakemake.input.table)
-    finer = [read_table(path) for path in snakemake.input.finer]
-    figure = draw(table, snakemake.params.papers_n, snakemake.params.mu_k, *finer)
+    figure = draw(table, snakemake.params.papers_n, snakemake.params.mu_k)
     title = "events and mu_sapp against the number of blocks"
     save(figure, snakemake.output, title)

@@ -15,21 +15,75 @@ rule tabulate_work_precision:
     log:
         "results/logs/tabulate_work_precision.log",
     resources:
-        seconds=100 if config["full"] else 4,
+        seconds=4,
     params:
         scene=EVEN,
-        full=config["full"],
+        full=False,
         code=digest("tabulate_work_precision"),
     script:
         "tabulate_work_precision.py"
+
+
+if IS_COMMITTED:
+
+    rule check_speed:
+        """Compare the committed measurements with those of this build, but for seconds, and hand them on."""
+        input:
+            tables=[COMMITTED / "speed.csv", COMMITTED / "beside_heyoka.csv"],
+            provenance=COMMITTED / "provenance.csv",
+            measured="results/tables/work_precision.csv",
+        output:
+            speed=report("results/tables/speed.csv", category="Tables"),
+            beside_heyoka=report("results/tables/beside_heyoka.csv", category="Tables"),
+            committed="results/tables/committed_speed.csv",
+        log:
+            "results/logs/check_speed.log",
+        localrule: True
+        params:
+            code=digest("check_speed"),
+        script:
+            "check_speed.py"
+
+elif HAS_LONG:
+
+    use rule tabulate_work_precision as tabulate_speed with:
+        output:
+            speed=report("results/tables/speed.csv", category="Tables"),
+        log:
+            "results/logs/tabulate_speed.log",
+        resources:
+            seconds=100,
+        params:
+            scene=EVEN,
+            full=True,
+            code=digest("tabulate_work_precision"),
+
+    rule beside_heyoka:
+        """Measure the exact solver beside heyoka.py and DOP853, in five sessions."""
+        input:
+            bench=ROOT / "benchmarks/bench.py",
+            ensemble=ROOT / "benchmarks/heyoka_ensemble.py",
+        output:
+            beside_heyoka=report("results/tables/beside_heyoka.csv", category="Tables"),
+        log:
+            "results/logs/beside_heyoka.log",
+        resources:
+            seconds=300,
+        params:
+            python=sys.executable,
+            code=digest("tabulate_work_precision"),
+        shell:
+            "{params.python} {input.bench} --sessions 5 --output {output} > {log}"
+
+    PUBLISHED |= dict.fromkeys(rules.tabulate_speed.output, ("tabulate_speed", None))
+    PUBLISHED |= dict.fromkeys(rules.beside_heyoka.output, ("beside_heyoka", None))
 
 
 rule draw_work_precision:
     """Draw errors against computing time, as measured by this build and as published."""
     input:
         measured="results/tables/work_precision.csv",
-        # committed, about the paper's slider
-        published=[COMMITTED / "work_precision_full.csv"] if IS_PAPERS else [],
+        published=["results/tables/speed.csv"] if HAS_LONG else [],
     output:
         measured=[
             report(
@@ -50,7 +104,7 @@ rule draw_work_precision:
                 ),
                 *collect("results/figures/speed.{kind}", kind=MORE_FORMATS),
             ]
-            if IS_PAPERS
+            if HAS_LONG
             else []
         ),
     log:
@@ -66,6 +120,7 @@ rule work_precision:
     """Accuracy against computing time."""
     input:
         rules.tabulate_work_precision.output,
+        collect("results/tables/{table}.csv", table=["speed", "beside_heyoka"] if HAS_LONG else []),
         rules.draw_work_precision.output,
     localrule: True
 

@@ -1,7 +1,6 @@
 """Longer runs, in full studies only: the mean of F_X for many chains, R at the first
 global slip, the mean friction of each block, and mu_sapp with a heavy block."""
 
-import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
@@ -11,16 +10,23 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from maegawa2010.paper.committed import compared
+from maegawa2010.studies.balance.long_run import (
+    at_first_slip,
+    lasting,
+    mean_friction,
+    of_blocks,
+    of_lasting,
+    of_load,
+    of_slip,
+)
 from maegawa2010.studies.balance.tables import largest, mean_of
 from maegawa2010.studies.members import chain_of, draws, stack
-from maegawa2010.studies.runs import up_to_global_slip
+from maegawa2010.studies.runs import known_until, up_to_global_slip
 from maegawa2010.support.run_statistics import NOISE, nine_tenths
 from precursors.analysis.balance import distance
-from precursors.analysis.slips import find_precursors, slip_table
-from precursors.analysis.summary import summarise, summary_of
+from precursors.analysis.summary import summarise
 from precursors.model.chain import Chain, FloatArray
-from precursors.model.statics import maximal_compressions, positions_from_compressions
-from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 from precursors.support.waiting import in_threads
 
@@ -28,11 +34,8 @@ THETAS = ("-5/6", 0, "5/6")
 # Stiffness K [N/m] and velocity V [m/s] of the drive: the least is a thirtieth of the
 # largest.
 DRIVES = {"drive_stiffness": (1e5, 8e5, 3e6), "drive_velocity": (1e-4, 5e-4, 3e-3)}
-LEFT_OUT = 0.2  # of a run, at its start
-MOST_TRANSITIONS = 30_000_000
 SECONDS = 10.0  # after which a run without a global slip is given up
-# Points between two transitions, at which forces are read for their mean.
-POINTS = 8
+AT_REST = 1e-3  # s, in which a new slider does not slip
 # Normal loads at places x from 0 to 1, but for a factor. Where no block keeps a share as
 # blocks shrink:
 SHARED: dict[str, Callable[[FloatArray], FloatArray]] = {
@@ -44,13 +47,19 @@ SHARED: dict[str, Callable[[FloatArray], FloatArray]] = {
 # Where one block carries `HEAVY` of an even load, and its place.
 HEAVY = 0.2
 PLACES = {"heavy first": 0.0, "heavy middle": 0.5, "heavy last": 1.0}
+# What may differ on another machine before single events are unpredicted (`UNPREDICTED_S`):
+# loads over F_Z, friction over w_i, and R over itself.
+CLOSE = 1e-5
+CLOSE_R = 1e-4
+SAME = 0.0  # of a count
 
 
 def runs_table(
     slider: Mapping[str, Any], settings: Mapping[str, Any], seed: int
 ) -> pd.DataFrame:
     """One row per chain in lasting stick-slip: seconds, over which the mean is taken;
-    the columns of `Mean`; largest, the largest F_X/F_Z then."""
+    the columns of `Mean`; largest, the largest F_X/F_Z then; and the beginning, as in all
+    tables here (`long_run`)."""
     tasks = [
         partial(mean_row, varied, chain, seconds)
         for varied, chain, seconds in cases(slider, settings, seed)
@@ -94,17 +103,8 @@ def mean_row(varied: str, chain: Chain, seconds: float) -> dict[str, Any]:
         "seconds": seconds - start,
         **mean_of(run, start, seconds)._asdict(),
         "largest": largest(run, start, seconds),
+        **of_lasting(chain, known_until(run)),
     }
-
-
-def lasting(chain: Chain, seconds: float) -> tuple[Run, float]:
-    """A run from rest in kinetic balance, where R = 0, and from when on it counts [s]."""
-    sliding = chain.mu_k / chain.mu_s * maximal_compressions(chain)
-    start = positions_from_compressions(sliding)
-    run = simulate(
-        chain, seconds, start_positions=start, max_transitions=MOST_TRANSITIONS
-    )
-    return run, LEFT_OUT * seconds
 
 
 def blocks_table(slider: Mapping[str, Any], seconds: float) -> pd.DataFrame:
@@ -115,24 +115,9 @@ def blocks_table(slider: Mapping[str, Any], seconds: float) -> pd.DataFrame:
         chain = Chain.from_slider(**{**slider, "theta": theta})
         run, start = lasting(chain, seconds)
         friction = mean_friction(run, start, seconds) / chain.weights
-        block = np.arange(1, chain.n_blocks + 1)
-        row = {"theta": chain.theta, "block": block, "friction": friction}
-        tables.append(pd.DataFrame(row))
+        first = of_blocks(chain, known_until(run))
+        tables.append(first.assign(theta=chain.theta, friction=friction))
     return pd.concat(tables, ignore_index=True)
-
-
-def mean_friction(run: Run, start: float, end: float) -> FloatArray:
-    """Mean friction of each block from `start` to `end` [s], in N, shape (N,): what its
-    springs push it with, less what has gone into its velocity."""
-    inside = run.transitions["time"]
-    edges = np.unique([start, *inside[(inside > start) & (inside < end)], end])
-    last = len(edges) - 1
-    parts = np.linspace(0, last, last * POINTS + 1)
-    times = np.interp(parts, np.arange(last + 1), edges)
-    forces, velocities = run.forces_and_velocities(times)
-    push = np.trapezoid(forces, times, axis=0) / (end - start)
-    gained = run.chain.mass * (velocities[-1] - velocities[0]) / (end - start)
-    return push - np.append(push[1:], 0.0) - gained
 
 
 def first_slips_table(
@@ -141,46 +126,26 @@ def first_slips_table(
     """R at the first global slip, a row for each scene and number of blocks.
 
     runs have noise in the normal loads, and reached a global slip. R_start_J is R of the
-    new slider. The others are as `at_first_slip` has them, of the chain as it is, and
-    medians (_q50) over the noise.
+    new slider without noise. The others are medians of what `at_first_slip` has.
     """
     rows = []
     for scene, slider in sliders.items():
         for n, runs in zip(settings["n_blocks"], settings["runs"], strict=True):
-            member = {**slider, "n_blocks": n, **draws(runs), "group": n}
-            members = stack([member]).to_dict("records")
-            chains = [chain_of(one, seed) for one in members]
+            new, *chains = noisy(slider, n, runs, seed)
             made = up_to_global_slip(chains, SECONDS)
             numbers = pd.DataFrame([at_first_slip(run) for run in made])
-            row = {"scene": scene, "theta": chains[0].theta, "n_blocks": n}
-            row |= {"runs": runs, "reached": int(numbers["R_J"][1:].notna().sum())}
-            row |= {"R_start_J": distance(made[0], [0.0])[0], **numbers.iloc[0]}
-            rows.append(row | numbers[1:].median().add_suffix("_q50").to_dict())
+            row: dict[Any, Any] = {"scene": scene, "theta": new.theta, "n_blocks": n}
+            row |= {"runs": runs, "reached": int(numbers["R_J"].notna().sum())}
+            row |= {"R_start_J": distance(simulate(new, AT_REST), [0.0])[0]}
+            row |= numbers.median().add_suffix("_q50").to_dict()
+            rows.append(row | of_slip(chains[0], known_until(made[0])))
     return pd.DataFrame(rows)
 
 
-def at_first_slip(run: Run) -> dict[str, float]:
-    """R at the onset of the first global slip [J], or NaN; bound = sqrt(2 K R)/F_Z, which F_X/F_Z
-    then keeps to mu_k; excess = mu_sapp - mu_k. Of the events of Fig. 13 the median
-    bound on the distance of F_X/F_Z from the line F_X = mu_k W(L_p), line_bound, and
-    the root mean square of that distance, line_rms.
-    """
-    chain = run.chain
-    slips = slip_table(run)
-    counted = find_precursors(slips)
-    onset, front = counted["onset_s"].to_numpy(), counted["front"].to_numpy()
-    left = np.array([distance(run, t, n)[0] for t, n in zip(onset, front, strict=True)])
-    carried = chain.mu_k * np.cumsum(chain.weights)[front - 1]
-    bounds = np.sqrt(2.0 * chain.drive_stiffness * left) / chain.normal_load
-    reached = counted["is_global"].iloc[-1]
-    miss = (counted["load_before_N"] - carried) / chain.normal_load
-    return {
-        "R_J": left[-1] if reached else math.nan,
-        "bound": bounds[-1] if reached else math.nan,
-        "excess": summary_of(slips).mu_sapp - chain.mu_k,
-        "line_bound": float(np.median(bounds)),
-        "line_rms": float(np.sqrt(np.mean(miss**2))),
-    }
+def noisy(slider: Mapping[str, Any], n: int, runs: int, seed: int) -> list[Chain]:
+    """A slider in n blocks, and with noise in its normal loads."""
+    member = {**slider, "n_blocks": n, **draws(runs), "group": n}
+    return [chain_of(one, seed) for one in stack([member]).to_dict("records")]
 
 
 def loads_table(
@@ -194,17 +159,25 @@ def loads_table(
     """
     rows = []
     for load, n in product([*SHARED, *PLACES], settings["n_blocks"]):
-        chain = Chain.from_slider(**{**slider, "n_blocks": n})
-        weights = weights_of(load, n) * chain.normal_load
-        random = np.random.default_rng([seed, n])
-        noise = NOISE * random.uniform(-1, 1, (settings["runs"], n))
-        chains = [replace(chain, weights=weights * (1 + one)) for one in noise]
+        chains = loaded(slider, load, n, settings["runs"], seed)
         runs = up_to_global_slip(chains, SECONDS)
         found = summarise(runs)
-        row = {"load": load, "n_blocks": n, "share": weights.max() / chain.normal_load}
+        row = {"load": load, "n_blocks": n, "share": weights_of(load, n).max()}
         row |= {"runs": len(runs), "reached": int(found["reached"].sum())}
-        rows.append(row | nine_tenths(found["mu_sapp"]))
+        row |= nine_tenths(found["mu_sapp"])
+        rows.append(row | of_load(chains[0], known_until(runs[0])))
     return pd.DataFrame(rows)
+
+
+def loaded(
+    slider: Mapping[str, Any], load: str, n: int, runs: int, seed: int
+) -> list[Chain]:
+    """A slider in n blocks under a load, with noise."""
+    chain = Chain.from_slider(**{**slider, "n_blocks": n})
+    weights = weights_of(load, n) * chain.normal_load
+    random = np.random.default_rng([seed, n])
+    noise = NOISE * random.uniform(-1, 1, (runs, n))
+    return [replace(chain, weights=weights * (1 + one)) for one in noise]
 
 
 def weights_of(load: str, n: int) -> FloatArray:
@@ -215,3 +188,48 @@ def weights_of(load: str, n: int) -> FloatArray:
     weights = np.full(n, (1.0 - HEAVY) / (n - 1))
     weights[round(PLACES[load] * (n - 1))] = HEAVY
     return weights
+
+
+def check(
+    tables: Mapping[str, pd.DataFrame],
+    slider: Mapping[str, Any],
+    sliders: Mapping[str, Mapping[str, Any]],
+    settings: Mapping[str, Any],
+) -> pd.DataFrame:
+    """Compare the beginnings in the committed tables, by name, with those made again."""
+    seed = settings["seed"]
+    runs = tables["balance_runs"].reset_index(names="case")
+    blocks, loads, slips = (
+        tables[f"balance_{name}"] for name in ("blocks", "loads", "first_slips")
+    )
+    means = [
+        {"case": case, "varied": varied, **of_lasting(chain, known_s)}
+        for (case, known_s), (varied, chain, _) in zip(
+            runs["known_s"].items(), cases(slider, settings["runs"], seed), strict=False
+        )
+    ]
+    frictions = []
+    for theta, known_s in blocks.groupby("theta")["known_s"].first().items():
+        chain = Chain.from_slider(**{**slider, "theta": theta})
+        frictions += (
+            of_blocks(chain, known_s).assign(theta=chain.theta).to_dict("records")
+        )
+    of_loads = []
+    for load, n, known_s in loads[["load", "n_blocks", "known_s"]].to_numpy():
+        (chain,) = loaded(slider, load, n, 1, seed)
+        of_loads.append({"load": load, "n_blocks": n, **of_load(chain, known_s)})
+    of_slips = []
+    for scene, n, known_s in slips[["scene", "n_blocks", "known_s"]].to_numpy():
+        _, chain = noisy(sliders[scene], n, 1, seed)
+        of_slips.append({"scene": scene, "n_blocks": n, **of_slip(chain, known_s)})
+    counted = {"first_transitions": SAME, "first_mean": CLOSE}
+    of_events = {"first_events": SAME, "first_largest": CLOSE}
+    near = {"first_R_J": CLOSE_R * slips["first_R_J"], "first_line_rms": CLOSE}
+    friction = {"first_friction": CLOSE}
+    found = [
+        compared("balance_runs", runs, means, ["case", "varied"], counted),
+        compared("balance_blocks", blocks, frictions, ["theta", "block"], friction),
+        compared("balance_loads", loads, of_loads, ["load", "n_blocks"], of_events),
+        compared("balance_first_slips", slips, of_slips, ["scene", "n_blocks"], near),
+    ]
+    return pd.concat(found, ignore_index=True)

@@ -8,18 +8,14 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
+from maegawa2010.studies.runs import predictable
 from precursors.analysis.balance import balance, distance, drive_work
-from precursors.analysis.horizon import horizon
 from precursors.analysis.load_curve import load_curve
 from precursors.analysis.slips import slip_table
 from precursors.model.chain import Chain
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
-# Error of a transition's time from which on single events are not predicted, and how far
-# runs are tried for it: with many blocks it grows fast, and trying takes 24 runs.
-UNPREDICTED_S = 1e-6
-BLOCK_SECONDS_TRIED = 200.0
 # Columns of pixels of a panel: two points in each show all peaks.
 PIXELS = 400
 
@@ -77,12 +73,6 @@ def row_of(run: Run) -> dict[str, float]:
         "largest": largest(run, first, last) if is_lasting else math.nan,
         **over_slips(run, slips),
     }
-
-
-def predictable(run: Run) -> float:
-    """Time until which single events are predicted [s]; at most what is tried."""
-    tried = min(run.duration, BLOCK_SECONDS_TRIED / run.chain.n_blocks)
-    return horizon(simulate(run.chain, tried), UNPREDICTED_S)
 
 
 def mean_of(run: Run, start: float, end: float) -> Mean:

@@ -29,20 +29,11 @@ END_ROOM = 4.5
 APART = 0.075
 
 
-def draw(
-    table: pd.DataFrame,
-    papers_n: int,
-    mu_k: float,
-    finer: pd.DataFrame | None = None,
-) -> Figure:
+def draw(table: pd.DataFrame, papers_n: int, mu_k: float) -> Figure:
     """Draw events and mu_sapp against N; dotted lines mark the paper's N and mu_k.
 
-    Of resolution.csv, medians are lines, and 5 to 95 % of the runs are bars. `finer` is
-    that of a larger study, which is drawn from its smallest N on.
+    Of resolution.csv, medians are lines, and 5 to 95 % of the runs are bars.
     """
-    if finer is not None:
-        fewer = table[table["n_blocks"] < finer["n_blocks"].min()]
-        table = pd.concat([fewer, finer])
     largest = table["n_blocks"].max()
     table = table[table["n_blocks"] >= min(FEWEST, largest)]
     medians = table.pivot_table("q50", "n_blocks", ["quantity", "theta"])

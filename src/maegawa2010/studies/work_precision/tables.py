@@ -4,15 +4,23 @@ compared with the truth."""
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
+from itertools import product
+from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
 from maegawa2010.methods import METHODS, ROWS, Method, Result, attempt
+from maegawa2010.paper.committed import compared
 from maegawa2010.support import timing
+from precursors.analysis.horizon import predicted_errors
 from precursors.benchmark.compare import Truth, compare
+from precursors.benchmark.score import solution
+from precursors.model.chain import Chain
+from precursors.model.checks import Until
+from precursors.solver.run import Record
+from precursors.solver.simulate import simulate
 
 if TYPE_CHECKING:
     from precursors.proof import Certificate
@@ -27,6 +35,15 @@ LONGEST = 5.0  # s, of a call: with a setting that takes longer, a method is giv
 # is so short [s].
 WARM_UP = 0.4
 SHORTEST = 0.0025  # s, of a round: see `timing.measure`
+# The proved chains by theta, and the ends of runs, of which beside_heyoka.csv is.
+PROBLEMS = {"0": "uniform", "-5/6": "trailing", "5/6": "leading"}
+ENDS: dict[str, Until] = {"to the first global slip": "global slip", "10 s": None}
+DURATION = 10.0  # s, the limit where a run ends by itself
+# On another machine: a run with the right transitions takes other steps, and has another
+# error, by a few per cent and by rounding.
+RELATIVE = 0.05
+ROUNDING_S = 1e-12
+ROUNDING_N = 1e-12
 
 
 def work_precision_table(
@@ -109,3 +126,57 @@ def _row(
         "transitions_found": found.transitions_found,
         "transitions_true": found.transitions_true,
     }
+
+
+def errors_of(name: str, run: Record, truth: Truth) -> Iterator[tuple[str, str, float]]:
+    """Quantity, unit and value of beside_heyoka.csv: how far a run of a solver is
+    right."""
+    found = compare(run, truth)
+    right = f"transitions of {name} right, of {found.transitions_true}"
+    yield right, "1", found.transitions_right
+    yield f"largest error of their times, {name}", "s", found.time_error
+    yield f"largest error of F_X at slip onsets, {name}", "N", found.load_error
+
+
+def truth_of(theta: str, end: str) -> Truth:
+    """The proved transitions of the paper's slider, to a key of `ENDS`."""
+    truth = solution(PROBLEMS[theta])
+    return truth if ENDS[end] is None else truth.until_global_slip()
+
+
+def with_rightness(table: pd.DataFrame) -> pd.DataFrame:
+    """With a column is_right: whether a run has all true transitions, and no other."""
+    true = table["transitions_true"]
+    right, found = table["transitions_right"], table["transitions_found"]
+    return table.assign(is_right=right.eq(true) & found.eq(true))
+
+
+def check(tables: Mapping[str, pd.DataFrame], measured: pd.DataFrame) -> pd.DataFrame:
+    """Compare the committed tables, by name, with what this build has `measured`, but for
+    the seconds, and with runs of the exact solver."""
+    speed, row = tables["speed"], ["method", "value"]
+    known = with_rightness(speed[row].merge(measured, on=row))
+    right = known[known["is_right"]]
+    close = {
+        "evaluations": RELATIVE * right["evaluations"],
+        "time_error_s": RELATIVE * right["time_error_s"] + ROUNDING_S,
+    }
+    speed = with_rightness(speed)
+    found = [
+        compared("speed", speed, known, row, {"is_right": 0.0}),
+        compared("speed", speed, right, row, close),
+    ]
+    beside, row = tables["beside_heyoka"], ["measurement", "case", "quantity"]
+    exact: list[dict[str, Any]] = []
+    for theta, (end, until) in product(PROBLEMS, ENDS.items()):
+        chain = Chain.from_slider(theta=theta)
+        run = simulate(chain, DURATION, until)
+        error = predicted_errors(run).time_error.max()
+        of_unit = {"1": 0.0, "s": error, "N": chain.loading_rate * error + ROUNDING_N}
+        label = {"measurement": "heyoka", "case": f"theta = {theta}, {end}"}
+        for quantity, unit, value in errors_of("exact", run, truth_of(theta, end)):
+            tolerance = {"tolerance": of_unit[unit]}
+            exact.append(label | {"quantity": quantity, "value": value} | tolerance)
+    tolerances = {"value": [one["tolerance"] for one in exact]}
+    found.append(compared("beside_heyoka", beside, exact, row, tolerances))
+    return pd.concat(found, ignore_index=True)

@@ -1,0 +1,123 @@
+"""Tables of long studies: committed with the rule, commit and seed that made them, and
+checked by every build, which makes a part of each row again."""
+
+import hashlib
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from precursors.support.files import read_bytes, read_table, write_table, write_whole
+
+REMEDY = "if the code is right, make article"
+
+
+def compared(
+    name: str,
+    committed: pd.DataFrame,
+    made: pd.DataFrame | Sequence[Mapping[Any, Any]],
+    row: Sequence[str],
+    tolerances: Mapping[str, Any],
+) -> pd.DataFrame:
+    """Compare a committed table with rows of it that were made again.
+
+    `row` are the columns that name a row of either table. `tolerances` has a number, or
+    one for each row that was made, by the column that is compared.
+
+    Returns
+    -------
+    DataFrame
+        One row per number: table, row, quantity, committed, made, tolerance, agrees.
+
+    Raises
+    ------
+    ValueError
+        In one line: the committed table lacks a row.
+    """
+    row, made = list(row), pd.DataFrame(made)
+    there = made[row].merge(committed.reset_index(names="line"), how="left", on=row)
+    names = [row_name(values) for values in there[["line", *row]].to_dict("records")]
+    for values, lacks in zip(names, there["line"].isna(), strict=True):
+        if lacks:
+            raise ValueError(f"paper/tables/{name}.csv has no {values}: {REMEDY}")
+    parts = []
+    for column, tolerance in tolerances.items():
+        old, new = (table[column].astype(float).to_numpy() for table in (there, made))
+        neither = np.isnan(old) & np.isnan(new)
+        part: dict[str, Any] = {"table": name, "row": names, "quantity": column}
+        part |= {"committed": old, "made": new, "tolerance": tolerance}
+        part["agrees"] = neither | (np.abs(new - old) <= tolerance)
+        parts.append(pd.DataFrame(part))
+    return pd.concat(parts, ignore_index=True)
+
+
+def row_name(values: Mapping[Any, Any]) -> str:
+    """A row as the file has it: "line 3, scene = fig11, n_blocks = 10"."""
+    shown = {name: value for name, value in values.items() if not pd.isna(value)}
+    line = shown.pop("line", None)
+    texts = [
+        f"{name} = {value:.4g}" if isinstance(value, float) else f"{name} = {value}"
+        for name, value in shown.items()
+    ]
+    if line is not None:
+        texts.insert(0, f"line {int(line) + 2}")
+    return ", ".join(texts)
+
+
+def hand_on(
+    found: pd.DataFrame, committed: Iterable[str], provenance: str, output: Any
+) -> None:
+    """Copy committed tables to the outputs of their names, and write the comparison.
+
+    Raises
+    ------
+    ValueError
+        In one line: a row that differs, or a table that is not as its rule made it.
+    """
+    for wrong in found[~found["agrees"]].itertuples():
+        raise ValueError(
+            f"paper/tables/{wrong.table}.csv, {wrong.row}: {wrong.quantity} is"
+            f" {wrong.committed:.9g}, and this code gives {wrong.made:.9g}: {REMEDY}"
+        )
+    sums = read_table(provenance).set_index("table")["sha256"]
+    for path in map(Path, committed):
+        content = read_bytes(path)
+        if hashlib.sha256(content).hexdigest() != sums.get(path.stem):
+            raise ValueError(
+                f"{path} is not as its rule made it (provenance.csv): restore it, or"
+                " make article"
+            )
+        write_whole(output[path.stem], content)
+    write_table(found, output["committed"])
+
+
+def provenance_table(
+    tables: Iterable[str], origins: Mapping[str, tuple[str, Any]], commit: str
+) -> pd.DataFrame:
+    """Where tables of these files come from: the rule, the commit, the seed if there is
+    one, and the checksum of each; `origins` has rule and seed by name."""
+    return pd.DataFrame(
+        {
+            "table": path.stem,
+            "rule": origins[path.stem][0],
+            "commit": commit,
+            "seed": origins[path.stem][1],
+            "sha256": hashlib.sha256(read_bytes(path)).hexdigest(),
+        }
+        for path in map(Path, tables)
+    )
+
+
+def agreement(found: pd.DataFrame) -> str:
+    """How many numbers of committed tables were made again and agree, in words."""
+    n, agree = len(found), int(found["agrees"].sum())
+    tables = found["table"].nunique()
+    return f"{agree} of {n} numbers of {tables} committed tables were made again alike"
+
+
+def comparisons(tables: str | Path) -> dict[str, pd.DataFrame]:
+    """All comparisons of a directory of tables, by name."""
+    paths = sorted(Path(tables).glob("committed_*.csv"))
+    return {path.stem: read_table(path) for path in paths}
