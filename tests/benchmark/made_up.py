@@ -37,9 +37,13 @@ def made_up(rows) -> Record:
     return Record.from_columns(CHAIN, DURATION, time, block, mode, load)
 
 
-def has_all_transitions(found: Comparison) -> bool:
+def has_all_transitions(comparison: Comparison) -> bool:
     """Whether a run has the transitions of the truth in their order, and no other."""
-    return found.transitions_right == found.transitions_found == found.transitions_true
+    return (
+        comparison.transitions_right
+        == comparison.transitions_found
+        == comparison.transitions_true
+    )
 
 
 @cache

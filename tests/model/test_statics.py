@@ -44,7 +44,7 @@ every_chain = pytest.mark.parametrize(
 
 
 @every_chain
-def test_in_the_state_of_maximal_strain_every_block_is_at_its_limit(chain):
+def test_every_block_is_at_its_limit_at_maximal_strain(chain):
     forces = balance_matrix(chain) @ maximal_compressions(chain)
     np.testing.assert_allclose(
         forces, chain.strength, rtol=0, atol=ROUNDING * load_bound(chain)
@@ -54,7 +54,7 @@ def test_in_the_state_of_maximal_strain_every_block_is_at_its_limit(chain):
 
 
 @every_chain
-def test_the_largest_load_at_rest_is_mu_s_F_Z_and_has_the_state_of_eq_12(chain):
+def test_largest_load_at_rest_is_mu_s_F_Z_in_the_state_of_eq_12(chain):
     load, compressions = largest_load_at_rest(chain)
     assert load == pytest.approx(chain.mu_s * chain.weights.sum(), rel=LP)
     np.testing.assert_allclose(compressions, maximal_compressions(chain), rtol=LP)

@@ -1,5 +1,7 @@
-"""Event functions enclose the exact ones; their first root is found, of polynomials
-with known roots too."""
+"""Event functions enclose the exact ones, and their first root is enclosed.
+
+Roots are also checked on polynomials whose roots are known.
+"""
 
 import re
 from dataclasses import replace
@@ -61,8 +63,8 @@ def through(*roots: float, **how):
 
 def find(*functions: EventFunction, back: float = 0.0):
     with ctx.workprec(BITS):
-        found = first_crossing(list(functions), arb(back))
-        return found and (found[0].block, found[1])
+        crossing = first_crossing(list(functions), arb(back))
+        return crossing and (crossing[0].block, crossing[1])
 
 
 ROOTS = {
@@ -82,14 +84,16 @@ ROOTS = {
 
 
 @pytest.mark.parametrize(("of", "back", "root"), ROOTS.values(), ids=ROOTS)
-def test_the_first_root_is_found_and_no_other(of, back, root):
-    found = find(of, back=back)
-    assert (found is None) == (root is None)
-    if found:
-        assert abs(float(found[1].mid()) - root) + float(found[1].rad()) <= ISOLATED
+def test_first_crossing_encloses_the_first_root(of, back, root):
+    crossing = find(of, back=back)
+    assert (crossing is None) == (root is None)
+    if crossing:
+        assert (
+            abs(float(crossing[1].mid()) - root) + float(crossing[1].rad()) <= ISOLATED
+        )
 
 
-def test_random_polynomials_have_the_first_root_that_numpy_finds():
+def test_first_root_of_random_polynomials_agrees_with_numpy():
     generator = np.random.default_rng(7)
     n_roots = 0
     for _ in range(200):
@@ -99,15 +103,15 @@ def test_random_polynomials_have_the_first_root_that_numpy_finds():
         real = roots.real[
             (abs(roots.imag) < 1e-12) & (roots.real > 0) & (roots.real < WINDOW)
         ]
-        found = find(function(coefficients.tolist()))
-        assert (found is None) == (not real.size)
-        if found:
+        crossing = find(function(coefficients.tolist()))
+        assert (crossing is None) == (not real.size)
+        if crossing:
             n_roots += 1
-            assert abs(float(found[1].mid()) - real.min()) < NUMPY
+            assert abs(float(crossing[1].mid()) - real.min()) < NUMPY
     assert 50 < n_roots < 150
 
 
-def test_of_several_functions_the_first_to_cross_is_found_in_any_order():
+def test_first_of_several_functions_wins_in_any_order():
     three = [through(0.7, block=1), through(0.3, 0.5, block=2), through(0.9, block=3)]
     for functions in (three, three[::-1], three[1:] + three[:1]):
         block, root = find(*functions)
@@ -115,7 +119,7 @@ def test_of_several_functions_the_first_to_cross_is_found_in_any_order():
         assert abs(float(root.mid()) - 0.3) <= ISOLATED
 
 
-def test_a_root_that_is_known_to_a_width_is_enclosed_and_the_enclosure_is_about_as_wide():
+def test_enclosure_is_about_as_wide_as_the_uncertain_root():
     _, root = find(through(0.3, width=1e-6))
     assert 0.9e-6 < float(root.rad()) < 1.1e-6
     assert root.contains(0.3)
@@ -145,7 +149,7 @@ UNDECIDED = {
 @pytest.mark.parametrize(
     ("functions", "back", "question", "time"), UNDECIDED.values(), ids=UNDECIDED
 )
-def test_what_cannot_be_decided_is_asked(functions, back, question, time):
+def test_undecidable_crossing_raises_a_question(functions, back, question, time):
     with pytest.raises(Undecided, match=f"^whether {question}$") as asked:
         find(*functions, back=back)
     assert [str(i) for i in asked.value.blocks] == re.findall(r"\d", question)
@@ -210,7 +214,7 @@ def sliding() -> Proof:
 CLOSEST = {(0, 0): 0.7, (1, 0): 0.7, (2, 0): 0.7, (0, 1): 0.01, (1, 1): 0.15}
 
 
-def test_event_functions_enclose_the_exact_ones_up_to_the_end_and_are_no_wider_than_they_must(
+def test_event_functions_enclose_the_exact_ones_closely(
     sliding,
 ):
     """Beside the matrix exponential, with so few bits that the remainder of the series
@@ -222,16 +226,16 @@ def test_event_functions_enclose_the_exact_ones_up_to_the_end_and_are_no_wider_t
         flow = expm(matrix * t) @ vector(sliding.state)
         for of in functions:
             for k, row in enumerate(exact_rows(sliding, of, matrix)):
-                found = (of.value, of.slope, of.bend)[k](arb(t))
-                wrong = abs(float(found.mid()) - row @ flow)
-                radius = float(found.rad())
+                ball = (of.value, of.slope, of.bend)[k](arb(t))
+                wrong = abs(float(ball.mid()) - row @ flow)
+                radius = float(ball.rad())
                 assert wrong <= radius
                 key = k, abs(of.direction)
                 closest[key] = max(closest[key], wrong / radius)
     assert all(closest[key] > least for key, least in CLOSEST.items()), closest
 
 
-def test_event_functions_hold_for_every_run_within_twice_the_distance_and_for_no_farther_one(
+def test_event_functions_cover_runs_within_twice_the_distance(
     sliding,
 ):
     """At the start, where a function and its derivatives are linear in T_i / sqrt c_i
@@ -257,7 +261,7 @@ def test_event_functions_hold_for_every_run_within_twice_the_distance_and_for_no
     assert {of.block for of in functions if of.fresh} == sliding.fresh == {10}
 
 
-def test_a_state_that_is_moved_is_within_its_distance_of_the_exact_one(sliding):
+def test_advanced_state_is_within_its_distance_of_the_exact_one(sliding):
     """Beside the matrix exponential, with so few bits that the remainder of the series
     is seen."""
     bounds = sliding.bounds
@@ -292,7 +296,7 @@ CHANGES = {
     CHANGES.values(),
     ids=CHANGES,
 )
-def test_no_net_force_changes_by_more_than_its_bound(
+def test_change_of_net_force_stays_within_its_bound(
     slider, mode, force, rate, distance, slack
 ):
     """Beside the matrix exponential; a run may have the velocity, or be as far as that

@@ -33,16 +33,16 @@ def windows() -> list[tuple[np.ndarray, float]]:
     all_series[:3] = np.pad(
         [[1.0, -0.5, -2.0], [1, 0, -2], [1, 0.5, -2]], [(0, 0), (0, 9)]
     )
-    found = []
+    series_and_roots = []
     for series in all_series:
         all_roots = np.roots(series[::-1])
         real = all_roots.real[abs(all_roots.imag) < 1e-9]
         within = real[(real >= 0.0) & (real <= 1.0)]
-        found.append((series, float(within.min(initial=np.inf))))
-    return found
+        series_and_roots.append((series, float(within.min(initial=np.inf))))
+    return series_and_roots
 
 
-def test_one_step_passes_no_root(windows):
+def test_safe_step_passes_no_root(windows):
     n = np.arange(12)
     for c, root in windows:
         curvature = (n * (n - 1) * abs(c)).sum()
@@ -50,22 +50,20 @@ def test_one_step_passes_no_root(windows):
 
 
 @pytest.mark.parametrize("shift", [0, 2])
-def test_the_search_ends_at_the_first_root_or_proves_that_there_is_none(
-    windows, shift, monkeypatch
-):
+def test_search_returns_the_first_root_or_none(windows, shift, monkeypatch):
     """Also where the series begins with roots at the start, which were dealt with
     already."""
     for function in (roots.safe_step, roots.move_series):
         monkeypatch.setattr(roots, function.__name__, function.py_func)
     progress = SimpleNamespace(root_steps=0)
     for c, root in windows:
-        found = roots.first_root.py_func(
+        first = roots.first_root.py_func(
             len(c) + shift, 1e-15, np.append(np.zeros(shift), c), progress
         )
-        assert found == pytest.approx(root, abs=1e-9) if root <= 1.0 else found > 1.0
+        assert first == pytest.approx(root, abs=1e-9) if root <= 1.0 else first > 1.0
 
 
-def test_a_function_stays_within_the_bounds_of_its_window(monkeypatch):
+def test_function_stays_within_the_bounds_of_its_window(monkeypatch):
     """Terms up to u^5, the value at the end, and a rest that does the worst it may."""
     lanes = SimpleNamespace(smaller=np.minimum, larger=np.maximum)
     monkeypatch.setattr(proof, "lanes", lanes)
@@ -87,7 +85,7 @@ def test_a_function_stays_within_the_bounds_of_its_window(monkeypatch):
     assert np.median((high - low) / (largest - least)) < 1.57
 
 
-def test_the_bound_of_the_rest_is_met_where_no_later_row_is_smaller():
+def test_bound_of_the_remainder_has_its_closed_form():
     """sum_n (n - 6) s^n/n! over n >= 9, as a closed form: (s - 6) e^s less its first
     terms."""
     terms = [WINDOW**n / math.factorial(n) for n in range(9)]
@@ -97,7 +95,7 @@ def test_the_bound_of_the_rest_is_met_where_no_later_row_is_smaller():
     assert TAIL * WINDOW**9 / math.factorial(9) == pytest.approx(rest, rel=1e-9)
 
 
-def test_the_rest_of_a_series_is_within_its_bound():
+def test_remainder_of_a_series_is_within_its_bound():
     """Of terms from the ninth on, of all that is watched in the longest window; they
     come from the equations of motion."""
     later = range(9, ORDER + 1)

@@ -11,7 +11,7 @@ from precursors import Chain
 ONCE_SUSPECTED = (12621, 14434, 12209, 12177, 19552, 12626, 15083, 17283, 1668, 3798)
 
 
-def test_a_soft_drive_keeps_its_load_where_block_1_starts_at_its_limit():
+def test_soft_drive_keeps_its_load_with_block_1_at_its_limit():
     """K/k = 1e-7: a rounding of k x_1 that is put into K (V t - x_1) is 4e-11 of it."""
     chain = Chain.from_slider(n_blocks=5, drive_stiffness=25.0)
     pushes = [chain.strength[0], 0.21, 0.32, -chain.strength[3], 0.54]
@@ -25,11 +25,11 @@ def test_a_soft_drive_keeps_its_load_where_block_1_starts_at_its_limit():
 
 
 @pytest.mark.parametrize("first", range(0, 160, 20))
-def test_random_chains_move_as_the_model_says(first):
+def test_random_chains_pass_the_audit(first):
     """The auditor, which shares no code with the solver, finds nothing wrong."""
     assert sum(map(moves_as_the_model_says, range(first, first + 20))) >= 15
 
 
 @pytest.mark.parametrize("number", ONCE_SUSPECTED)
-def test_a_run_that_once_looked_wrong_moves_as_the_model_says(number):
+def test_formerly_inaccurate_chains_pass_the_audit(number):
     assert moves_as_the_model_says(number)

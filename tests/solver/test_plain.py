@@ -19,7 +19,7 @@ RANDOM_LOAD = 1e-8
 
 
 @pytest.mark.parametrize("theta", SCENES.values())
-def test_every_transition_of_a_scene_is_the_same_up_to_the_first_global_slip(
+def test_plain_method_agrees_up_to_the_first_global_slip(
     theta,
 ):
     run = simulate(SLIDER(theta=theta), until="global slip")
@@ -40,9 +40,7 @@ def test_every_transition_of_a_scene_is_the_same_up_to_the_first_global_slip(
 
 
 @pytest.mark.parametrize(("over", "mode"), [(1e-9, 1), (0.0, 0), (-1e-9, 0)])
-def test_a_block_beyond_its_limit_slides_from_time_0_and_one_at_its_limit_sticks(
-    over, mode
-):
+def test_block_slides_at_the_start_only_beyond_its_limit(over, mode):
     """Its limit is 28 N; its positions are known to their roundings, 1e-10 N."""
     for block, side in product((1, 4, 9), (1, -1)):
         push = np.full(10, 14.0)
@@ -54,7 +52,7 @@ def test_a_block_beyond_its_limit_slides_from_time_0_and_one_at_its_limit_sticks
         assert compiled[["block", "mode"]].tolist() == [(block + 1, side)] * mode
 
 
-def test_random_chains_have_the_same_transitions():
+def test_plain_method_agrees_on_random_chains():
     for number in range(15):
         case = mild_chain(np.random.default_rng(number))
         rows, _ = by_plain(case.chain, case.duration, most=case.most, **case.start)

@@ -27,25 +27,25 @@ SLIP_ROUNDING = 1e-11
 
 
 @pytest.mark.parametrize("problem", problems())
-def test_every_proved_transition_is_found_at_its_time_and_load(problem):
+def test_run_agrees_with_every_proved_transition(problem):
     truth = solution(problem)
     # Of this chain's whole run roundings decide the order, as its horizon says.
     if problem == "fast_drive":
         truth = truth.until_global_slip()
     run = simulate(truth.run.chain, truth.run.duration)
-    found = run.transitions
+    transitions = run.transitions
     true = truth.run.transitions
-    assert found[["block", "mode"]].tolist() == true[["block", "mode"]].tolist()
+    assert transitions[["block", "mode"]].tolist() == true[["block", "mode"]].tolist()
     early = true["time"] <= truth.until_global_slip().run.duration
-    error = abs(found["time"] - true["time"])
+    error = abs(transitions["time"] - true["time"])
     assert error[early].max() < TO_GLOBAL_SLIP
     assert error.max() < TO_THE_END
-    error = abs(found["tangential_load"] - true["tangential_load"])
+    error = abs(transitions["tangential_load"] - true["tangential_load"])
     assert error[early].max() < LOAD_TO_GLOBAL_SLIP
     assert error.max() < LOAD_TO_THE_END
 
 
-def test_times_of_ten_thousand_slips_do_not_gather_roundings():
+def test_rounding_does_not_accumulate_over_10000_slips():
     """Between two slips the drive makes up for 2 (mu_s - mu_k) F_Z."""
     chain = SLIDER(n_blocks=1)
     stick = 2 * (chain.mu_s - chain.mu_k) * chain.normal_load / chain.loading_rate
@@ -58,7 +58,7 @@ def test_times_of_ten_thousand_slips_do_not_gather_roundings():
     assert math.fsum(run.intervals) == pytest.approx(run.duration, rel=ROUNDING)
 
 
-def test_a_cap_on_transitions_keeps_the_run_so_far():
+def test_transition_limit_returns_the_run_so_far():
     most = 100
     with pytest.raises(TransitionLimitError, match="max_") as error:
         simulate(SLIDER(), duration=10.0, max_transitions=most)
@@ -73,7 +73,7 @@ def test_a_cap_on_transitions_keeps_the_run_so_far():
     )
 
 
-def test_a_chain_that_slides_without_end_meets_a_cap_on_work(monkeypatch):
+def test_endless_sliding_reaches_the_work_limit(monkeypatch):
     monkeypatch.setattr("precursors.solver.simulate.MAX_WINDOWS", 1000)
     monkeypatch.setattr("precursors.solver.batch.WINDOWS_PER_CALL", 400)
     with pytest.raises(
@@ -83,7 +83,7 @@ def test_a_chain_that_slides_without_end_meets_a_cap_on_work(monkeypatch):
     audit(error.value.run).raise_if_failed()
 
 
-def test_a_run_until_the_global_slip_stops_at_its_end_or_at_its_duration():
+def test_until_global_slip_stops_there_or_at_the_duration():
     whole = simulate(SLIDER(theta="-5/6")).transitions
     run = simulate(SLIDER(theta="-5/6"), until="global slip")
     slips = find_slips(run)
@@ -91,8 +91,8 @@ def test_a_run_until_the_global_slip_stops_at_its_end_or_at_its_duration():
     assert run.duration == slips["end"].iloc[-1]
     shorter = simulate(SLIDER(theta="-5/6"), duration=1.0, until="global slip")
     assert shorter.duration == 1.0
-    for found in (run.transitions, shorter.transitions):
-        np.testing.assert_array_equal(found, whole[: len(found)])
+    for transitions in (run.transitions, shorter.transitions):
+        np.testing.assert_array_equal(transitions, whole[: len(transitions)])
 
 
 @pytest.mark.parametrize(
@@ -122,7 +122,7 @@ def test_a_bad_argument_is_named_in_one_line(options, words):
 
 @pytest.mark.parametrize("changes", [{}, {"theta": 1.0}, {"mu_k": 0.7}], ids=str)
 @pytest.mark.parametrize("n_blocks", [2, 10, 50])
-def test_all_blocks_at_their_limit_let_go_in_one_event(n_blocks, changes):
+def test_all_blocks_at_their_limit_slip_in_one_event(n_blocks, changes):
     """Eq. 15; also with a weightless block, and where mu_s = mu_k."""
     chain = SLIDER(n_blocks, **changes)
     run = simulate(chain, 1e-3, "global slip", maximal_strain_positions(chain))
@@ -138,7 +138,7 @@ def test_all_blocks_at_their_limit_let_go_in_one_event(n_blocks, changes):
     [[50] * 4 + [0] * 2 + [50] * 4, SLIDER(theta=1).weights],
     ids=["groove", "theta = 1"],
 )
-def test_blocks_without_load_neither_prolong_an_event_nor_delay_the_global_slip(
+def test_weightless_blocks_do_not_prolong_events(
     weights,
 ):
     """Which lies beside that with 0.01 N in their place; the motion is chaotic."""
@@ -153,7 +153,7 @@ def test_blocks_without_load_neither_prolong_an_event_nor_delay_the_global_slip(
     assert apparent_friction(run) == pytest.approx(apparent_friction(loaded), abs=0.1)
 
 
-def test_a_run_until_the_global_slip_counts_blocks_as_a_slip_table():
+def test_until_global_slip_ignores_nearly_weightless_blocks():
     """A block with a millionth of the mean load slides on after the global slip."""
     weights = np.full(5, 80.0)
     weights[4] = 1e-6 * 80.0
@@ -168,7 +168,7 @@ def test_a_run_until_the_global_slip_counts_blocks_as_a_slip_table():
     assert end == pytest.approx(run.duration, abs=TO_GLOBAL_SLIP)
 
 
-def test_a_block_without_load_rests_until_it_is_pushed():
+def test_weightless_block_rests_until_it_is_pushed():
     """So that a slow drive takes no longer: a day to the first slip."""
     run = simulate(SLIDER(theta=-1, drive_velocity=1e-9), 86400.0)
     assert run.transitions["block"].tolist() == [1, 1]

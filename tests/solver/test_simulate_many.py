@@ -37,7 +37,7 @@ def mixed() -> list[Chain]:
 
 
 @pytest.mark.parametrize("until", [None, "global slip"])
-def test_an_ensemble_is_what_its_chains_are_one_by_one(until):
+def test_ensemble_equals_its_chains_run_one_by_one(until):
     chains = mixed()
     runs = simulate_many(chains, duration=1.0, until=until, threads=2)
     assert until or max(len(run.transitions) for run in runs) > solver.SHARED_ROOM
@@ -47,7 +47,7 @@ def test_an_ensemble_is_what_its_chains_are_one_by_one(until):
     )
 
 
-def test_states_of_long_runs_are_thinned_to_the_room_they_may_take_and_known_everywhere(
+def test_stored_states_are_thinned_without_changing_the_motion(
     monkeypatch,
 ):
     chains = [chain for chain in mixed() if chain.drive_velocity > 1e-4]
@@ -61,13 +61,13 @@ def test_states_of_long_runs_are_thinned_to_the_room_they_may_take_and_known_eve
         apart = np.diff(thin.states.after)
         assert 1 < apart.max() <= 2 * apart.min()
         np.testing.assert_array_equal(thin.transitions, run.transitions)
-        for found, known in zip(thin.at(times), run.at(times), strict=True):
+        for interpolated, known in zip(thin.at(times), run.at(times), strict=True):
             np.testing.assert_allclose(
-                found, known, rtol=0, atol=ROUNDING * abs(known).max()
+                interpolated, known, rtol=0, atol=ROUNDING * abs(known).max()
             )
 
 
-def test_runs_are_the_same_however_often_the_kernel_pauses(monkeypatch):
+def test_runs_do_not_depend_on_pauses_of_the_kernel(monkeypatch):
     chains = mixed()[:16]
     runs = simulate_many(chains, 1.0, threads=1)
     monkeypatch.setattr(solver, "SHARED_ROOM", 16)
@@ -109,7 +109,7 @@ def test_a_bad_argument_is_named_in_one_line(options, words):
     assert words in str(error.value)
 
 
-def test_chains_may_come_from_a_generator_and_what_is_no_chain_is_refused():
+def test_chains_may_be_a_generator_and_others_are_refused():
     chain = SLIDER()
     assert simulate_many([]) == []
     assert len(simulate_many(chain for _ in range(3))) == 3

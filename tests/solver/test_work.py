@@ -39,11 +39,11 @@ def counted(monkeypatch):
     return count
 
 
-def test_a_scene_takes_as_much_work_as_it_did(counted):
+def test_work_for_a_scene_is_unchanged(counted):
     assert counted(SLIDER(theta=0.0), 1000, until="global slip") == UNIFORM
 
 
-def test_blocks_that_feel_the_drive_late_cost_no_search(counted):
+def test_blocks_far_from_the_drive_need_no_long_search(counted):
     """Without friction all let go at once; the drive moves block 5 as t^9, which is
     flat for long."""
     chain = Chain([10.0] * 5, 2.84e-5, 25e6, 2.7e11, 8.4e-5, 0.0, 0.0)

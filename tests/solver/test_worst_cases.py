@@ -1,4 +1,4 @@
-"""The twenty worst of 100,000 random chains: their transitions are found, compiled and
+"""The twenty worst of 100,000 random chains: their transitions come out right, compiled and
 in plain Python.
 
 The closest transitions of two blocks in golden/worst_cases.jsonl are 2e-11/omega apart,
@@ -47,16 +47,18 @@ def in_plain_python(chain, case):
 
 
 @pytest.mark.parametrize("solve", [by_kernel, in_plain_python])
-def test_the_order_is_the_true_one_and_the_times_are_right(solve):
+def test_worst_cases_have_the_true_order_and_times(solve):
     assert len(CASES) == 20
     for case in CASES:
         chain = Chain(**case["chain"])
         unit = 1 / chain.fastest_frequency_bound
-        found = solve(chain, case)
+        transitions = solve(chain, case)
         true = case["transitions"]
-        assert in_groups(found, TIE * unit) == in_groups(true, TIE * unit), case["gap"]
+        assert in_groups(transitions, TIE * unit) == in_groups(true, TIE * unit), case[
+            "gap"
+        ]
         np.testing.assert_allclose(
-            [time for time, *_ in found],
+            [time for time, *_ in transitions],
             [time for time, *_ in true],
             rtol=0,
             atol=OF_KIND.get(case["kind"], TIME) * unit,

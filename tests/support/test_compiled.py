@@ -1,4 +1,4 @@
-"""Compiled code is kept on disk, and compiled anew after an edit of any module it was
+"""Compiled code is cached on disk, and compiled anew after an edit of any module it was
 made from."""
 
 import json
@@ -40,7 +40,7 @@ with event.install_listener("numba:compile", Announcement()):
     from small.entry import entry
     print(json.dumps([entry(2), sum(entry.stats.cache_hits.values())]))
 """
-SAID = "compiling the solver for this machine, once: some 10 s\n"
+NOTICE = "compiling the solver for this machine, once: some 10 s\n"
 
 
 class Small:
@@ -85,10 +85,8 @@ def small(tmp_path):
     return Small(tmp_path / "with spaces, Ümläute and 摩擦")
 
 
-def test_another_clone_of_the_user_compiles_nothing_until_an_edit_and_old_code_is_removed(
-    small, tmp_path
-):
-    assert small.use() == (7, 0, SAID)
+def test_clones_share_compiled_code_until_an_edit(small, tmp_path):
+    assert small.use() == (7, 0, NOTICE)
     (place,) = small.cache.glob("precursors/*")
     clone = Small(tmp_path / "clone")
     clone.cache = small.cache
@@ -96,9 +94,9 @@ def test_another_clone_of_the_user_compiles_nothing_until_an_edit_and_old_code_i
     # As a power cut or a full disk leaves them: empty, and without an end.
     for i, file in enumerate(sorted(place.iterdir())):
         file.write_bytes(file.read_bytes()[: 100 * i])
-        assert clone.use() == (7, 0, SAID)
+        assert clone.use() == (7, 0, NOTICE)
     clone.write("part.py", PART.replace("3 * x", "5 * x"))
-    assert clone.use() == (11, 0, SAID)
+    assert clone.use() == (11, 0, NOTICE)
     (edited,) = set(small.cache.glob("precursors/*")) - {place}
     others = [place.with_name(f"small-{i}") for i in range(CACHED_VERSIONS + 1)]
     for i, other in enumerate(others):
@@ -108,7 +106,7 @@ def test_another_clone_of_the_user_compiles_nothing_until_an_edit_and_old_code_i
     assert set(small.cache.glob("precursors/*")) == {place, edited, *others[3:]}
 
 
-def test_an_edit_of_any_module_and_a_new_name_change_the_checksum(tmp_path):
+def test_edits_and_new_names_change_the_checksum(tmp_path):
     copy = shutil.copytree(
         KERNEL, tmp_path / "kernel", ignore=shutil.ignore_patterns("__pycache__")
     )
@@ -121,7 +119,7 @@ def test_an_edit_of_any_module_and_a_new_name_change_the_checksum(tmp_path):
     assert len({*sums, checksum(copy)}) == len(sums) + 1
 
 
-def test_where_nothing_can_be_written_it_compiles_and_says_so(small):
+def test_unwritable_cache_compiles_with_a_warning(small):
     # A file where a directory should be stops root as well.
     (small.package / "__pycache__").write_text("")
     small.cache.write_text("")

@@ -62,9 +62,7 @@ SUMS_FILE = "src/precursors/room/sums.py"
         ("src/precursors/parts/one.py", "x = 2\n", True),
     ],
 )
-def test_the_digest_changes_with_what_is_computed_and_nothing_else(
-    root, name, text, changes
-):
+def test_digest_changes_only_with_what_is_computed(root, name, text, changes):
     digests = []
     for content in (FILES[name], text):
         (root / name).write_text(content, encoding="utf-8")
@@ -73,7 +71,7 @@ def test_the_digest_changes_with_what_is_computed_and_nothing_else(
     assert (digests[0] != digests[1]) == changes
 
 
-def test_a_script_that_is_missing_or_there_twice_is_named(root):
+def test_missing_or_duplicate_script_is_named(root):
     with pytest.raises(OSError, match=r"missing\.py must be one .* but there are 0"):
         digest.digest_code(root, "missing")
     (root / "workflow/script.py").touch()

@@ -32,20 +32,20 @@ def test_tasks_take_turns_after_each_is_called_twice():
     assert [len(of.rounds) for of in timings.values()] == [3, 3]
 
 
-def test_a_round_counts_the_mean_of_calls_that_take_long_enough_together(task):
+def test_short_tasks_are_repeated_within_a_round_and_averaged(task):
     """The task takes 2 s when warm: five calls a round, 3 to 7 s, ..."""
     measured = timing.measure({"task": task}, 3, 10.0)["task"]
     assert measured.rounds == [(5.0, 2.5), (10.0, 5.0), (15.0, 7.5)]
     assert measured.seconds == 10.0
 
 
-def test_a_ratio_is_the_median_of_the_rounds_ratios():
+def test_ratio_is_the_median_of_the_ratios_of_rounds():
     one = timing.Timing([Seconds(1.0, 2.0), Seconds(10.0, 2.0), Seconds(1.0, 2.0)])
     other = timing.Timing([Seconds(3.0, 5.0), Seconds(20.0, 5.0), Seconds(4.0, 5.0)])
     assert one.times_faster_than(other) == (3.0, 2.5)
 
 
-def test_garbage_is_collected_between_tasks_only_and_again_afterwards(clock):
+def test_garbage_is_collected_only_between_tasks(clock):
     seen = []
 
     def fail_when_warm():

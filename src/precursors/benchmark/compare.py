@@ -138,7 +138,7 @@ def compare(run: Record, truth: Truth) -> Comparison:
             f"the run must have as many blocks as the truth, {true_run.chain.n_blocks}, "
             f"but has {run.chain.n_blocks}"
         )
-    found = run.transitions
+    transitions = run.transitions
     true = true_run.transitions
     n = transitions_right(run, true_run)
     slips = slip_events(run)
@@ -148,12 +148,17 @@ def compare(run: Record, truth: Truth) -> Comparison:
     loads, true_loads = (of["load_before_N"][:n_slips] for of in (slips, true_slips))
     return Comparison(
         transitions_right=n,
-        transitions_found=len(found),
+        transitions_found=len(transitions),
         transitions_true=len(true),
-        time_errors=abs(found["time"][:n] - true["time"][:n] - truth.time_rest[:n]),
+        time_errors=abs(
+            transitions["time"][:n] - true["time"][:n] - truth.time_rest[:n]
+        ),
         load_error=_largest(abs(loads - true_loads - truth.load_rest[onsets])),
         first_difference=float(
-            min([*found["time"][n : n + 1], *true["time"][n : n + 1]], default=np.inf)
+            min(
+                [*transitions["time"][n : n + 1], *true["time"][n : n + 1]],
+                default=np.inf,
+            )
         ),
     )
 

@@ -56,9 +56,9 @@ def score(path: str | Path, problem: str, ties: float = 0.0) -> dict[str, Any]:
     true = truth.run.transitions.tolist()
     ordered = in_true_order(given, true, Decimal(repr(not_negative("ties", ties, "s"))))
     columns = np.array(ordered, dtype=float).reshape(-1, len(NEEDED)).T
-    found = Record.from_columns(chain, end, *columns)
-    whole = compare(found, truth)
-    start = compare(until_global_slip(found), truth.until_global_slip())
+    result = Record.from_columns(chain, end, *columns)
+    whole = compare(result, truth)
+    start = compare(until_global_slip(result), truth.until_global_slip())
     values = {
         "problem": problem,
         "transitions_right": whole.transitions_right,
@@ -70,7 +70,7 @@ def score(path: str | Path, problem: str, ties: float = 0.0) -> dict[str, Any]:
         "time_error_to_global_slip_s": start.time_error,
         "load_error_to_global_slip_N": start.load_error,
     }
-    for which, run in (("", found), ("_true", truth.run)):
+    for which, run in (("", result), ("_true", truth.run)):
         numbers = summary_of(slip_table(run))
         counted = numbers.events_counted if numbers.reached else math.nan
         values |= {
@@ -88,10 +88,10 @@ def in_words(transitions: Rows) -> str:
     return next(words, "none")
 
 
-def in_true_order(found: Rows, true: Rows, ties: Decimal) -> Rows:
+def in_true_order(listed: Rows, true: Rows, ties: Decimal) -> Rows:
     """Order transitions no farther apart than `ties` [s] as the truth does."""
-    ordered = list(found)
-    for k, (_, block, mode, _) in enumerate(true[: len(found)]):
+    ordered = list(listed)
+    for k, (_, block, mode, _) in enumerate(true[: len(listed)]):
         end = ordered[k][0] + ties
         tied = takewhile(end.__ge__, (time for time, *_ in ordered[k:]))
         blocks = [row[1] for row in ordered[k : k + len(list(tied))]]

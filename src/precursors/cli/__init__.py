@@ -68,6 +68,6 @@ def main(argv: Sequence[str] | None = None) -> int:
             f"{error.filename}: {error.strerror}" if error.filename else str(error)
         ]
     for line in lines:
-        told = " ".join(line.split())
-        print(f"precursors {arguments.command}: {told}", file=sys.stderr)
+        message = " ".join(line.split())
+        print(f"precursors {arguments.command}: {message}", file=sys.stderr)
     return code

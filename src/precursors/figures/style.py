@@ -279,12 +279,12 @@ def draw_key(figure: Figure, entries: Sequence[Any] = (), ncols: int = 0) -> Non
     """Draw a key below the panels, for marks that mean the same in all of them; by
     default of all that is drawn and has a label. It has fewer columns, or shorter
     lines, if they would be wider than the page."""
-    found = {
+    handles = {
         label: handle
         for axes in figure.axes
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
     }
-    entries = entries or list(found.values())
+    entries = entries or list(handles.values())
     for columns in range(ncols or len(entries), 0, -1):
         key = figure.legend(handles=entries, loc="outside lower center", ncols=columns)
         if key.get_window_extent().width <= figure.bbox.width:

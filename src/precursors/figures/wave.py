@@ -171,14 +171,14 @@ def _slides(transitions: NDArray[Any], event: Any) -> Slides:
     onset, end = event.onset_s, event.end_s
     colors = {1: style.GLOBAL if event.is_global else style.PARTIAL, -1: style.BACKWARD}
     inside = (transitions["time"] >= onset) & (transitions["time"] <= end)
-    found = []
+    slides = []
     for block in np.unique(transitions["block"]):
         own = transitions[inside & (transitions["block"] == block)]
         shares = np.append((own["time"] - onset) / (end - onset), 1.0)
         for start, stop, mode in zip(shares, shares[1:], own["mode"], strict=False):
             if mode:
-                found.append((int(block), start, stop, colors[mode]))
-    return found
+                slides.append((int(block), start, stop, colors[mode]))
+    return slides
 
 
 def _drive(side: float) -> str:

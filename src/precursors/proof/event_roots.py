@@ -108,19 +108,19 @@ def first_crossing(
     Undecided
         If two roots overlap, or the sign of a function cannot be decided.
     """
-    found: list[tuple[arb, EventFunction]] = []
+    roots: list[tuple[arb, EventFunction]] = []
     end = WINDOW
     for function in functions:
         root = _crossing(function, end, back)
         if root is not None:
-            found.append((root, function))
+            roots.append((root, function))
             end = min(end, math.nextafter(float(root.upper()), math.inf))
-    if not found:
+    if not roots:
         return None
     root, first = min(
-        found, key=lambda pair: pair[0]
+        roots, key=lambda pair: pair[0]
     )  # the earliest, unless two overlap
-    for other, function in found:
+    for other, function in roots:
         if function is not first and other.overlaps(root):
             question = f"whether first {first.what} or {function.what}"
             raise Undecided(question, (first.block, function.block), root.union(other))

@@ -191,18 +191,18 @@ def _tie(failure: Undecided) -> Tie:
 def _differences(certificate: Certificate) -> Iterator[str]:
     """Where a certificate is not what its proof gives."""
     proof, failure = _prove(certificate)
-    for number, (said, proved) in enumerate(
+    for number, (stated, proved) in enumerate(
         zip(certificate.transitions, proof.transitions, strict=False), 1
     ):
         where = f"transition {number}, t = {float(proved.time):.9g} s"
-        if (said.block, said.mode) != (proved.block, proved.mode):
+        if (stated.block, stated.mode) != (proved.block, proved.mode):
             yield f"{where}: block {proved.block} goes to mode {proved.mode:+d}, which is not what is stated"
-        if not said.time.contains(_enclosure_of(proved.time)):
-            yield f"{where}: its time is not proved within {float(said.time.radius):.3g} s"
-        if not said.tangential_load.contains(_enclosure_of(proved.tangential_load)):
-            yield f"{where}: its load is not proved within {float(said.tangential_load.radius):.3g} N"
-        if said.slope > _enclosure_of(proved.slope).lower:
-            yield f"{where}: a slope of {float(said.slope):.3g} is not proved"
+        if not stated.time.contains(_enclosure_of(proved.time)):
+            yield f"{where}: its time is not proved within {float(stated.time.radius):.3g} s"
+        if not stated.tangential_load.contains(_enclosure_of(proved.tangential_load)):
+            yield f"{where}: its load is not proved within {float(stated.tangential_load.radius):.3g} N"
+        if stated.slope > _enclosure_of(proved.slope).lower:
+            yield f"{where}: a slope of {float(stated.slope):.3g} is not proved"
     if len(certificate.transitions) != len(proof.transitions):
         yield f"{len(certificate.transitions)} transitions instead of {len(proof.transitions)}"
     blocks = certificate.tie.blocks if certificate.tie else "none"

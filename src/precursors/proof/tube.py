@@ -153,9 +153,9 @@ class Proof:
             Where the precision does not suffice or there is a tie, with the time in s;
             `transitions` are those that are proved.
         """
-        with bar("proving", float(self.duration.mid())) as told:
+        with bar("proving", float(self.duration.mid())) as progress:
             while self.step():
-                told.update(float(self.clock.mid()) - told.n)
+                progress.update(float(self.clock.mid()) - progress.n)
         return self.transitions
 
     def step(self) -> bool:
