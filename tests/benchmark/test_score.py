@@ -153,10 +153,10 @@ def test_score_reports_where_a_short_list_ends(scored):
 
 ROW = "0.35,1,1,28"
 WRONG = {
-    "no rows": ([HEADER], "mine.csv: no transition stands below the header"),
+    "no rows": ([HEADER], "mine.csv: there is no transition below the header"),
     "no modes": (
         ["time_s,block,tangential_load_N"],
-        "mode must be once in the header, not 0 times",
+        "mode must occur once in the header, not 0 times",
     ),
     "a short row": (
         [HEADER, ROW, "0.4,1,0"],
