@@ -18,8 +18,8 @@ from precursors.cli.files import (
     given,
     how_to_read,
     measured_data,
-    several,
     note,
+    several,
 )
 from precursors.cli.options import DATA, MEASURED, RUN, SLIDER_OPTIONS
 from precursors.model.chain import (

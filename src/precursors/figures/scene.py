@@ -18,7 +18,8 @@ CURVE_MM = 62.0  # of the load alone
 KEY_MM = 11.4
 MEASURED_MM = 9.0  # height of an entry of the key for measured data
 NARROW_MM = 150.0  # in narrower figures the magnified view is below, not beside
-ZOOM = (
+# The magnified view, as multiples of the time of the first global slip.
+ZOOM = (0.66, 1.03)
     0.66,
     1.03,
 )  # time span of the magnified view over that of the first global slip
