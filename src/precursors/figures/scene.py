@@ -20,9 +20,6 @@ MEASURED_MM = 9.0  # height of an entry of the key for measured data
 NARROW_MM = 150.0  # in narrower figures the magnified view is below, not beside
 # The magnified view, as multiples of the time of the first global slip.
 ZOOM = (0.66, 1.03)
-    0.66,
-    1.03,
-)  # time span of the magnified view over that of the first global slip
 KEY_WIDTH = 7.25  # of a column of the key, in mm per pt of font size
 
 # Kinds of events and their looks; later ones are drawn in front.
