@@ -1,4 +1,5 @@
-"""R changes by what the drive does beside kinetic friction, less backward sliding."""
+"""The change of R equals the work of the drive beyond kinetic friction, less the loss
+by backward sliding."""
 
 from dataclasses import replace
 
@@ -8,9 +9,9 @@ import pytest
 from precursors import Chain, find_precursors, find_slips, simulate
 from precursors.analysis.balance import backward_slip, balance, distance, drive_work
 
-# Of R, which is 0.02 J at the start: sums over some 30,000 points of the load curve.
+# Error of R, which is 0.02 J at the start, in sums over some 30,000 points.
 ROUNDING_J = 1e-11
-# Of a path that is read at so many times: it is cut where a block turns back.
+# Number of samples of a path, and its relative error: sampling cuts off turning points.
 TIMES = 400_001
 CUT = 1e-3
 
@@ -43,7 +44,7 @@ def test_distance_of_one_block_is_equal_before_and_after_a_slip():
 
 @pytest.mark.parametrize("mu_k", [0.1, 0.45])
 def test_backward_sliding_lowers_r_by_the_work_along_its_path(mu_k):
-    """The path of each block is read at many times, without transitions."""
+    """The reference samples the path of each block and does not use transitions."""
     run = simulate(Chain.from_slider(theta="5/6", mu_k=mu_k, drive_velocity=1e-2), 0.1)
     steps = np.diff(run.at(np.linspace(0.0, run.duration, TIMES))[0], axis=0)
     back = -steps.clip(max=0.0).sum(axis=0)
@@ -56,7 +57,7 @@ def test_backward_sliding_lowers_r_by_the_work_along_its_path(mu_k):
 
 
 def test_balance_holds_across_a_step_of_the_drive_velocity():
-    """R goes on where the velocity steps, and so does the balance."""
+    """R is continuous where the velocity steps."""
     chain = Chain.from_slider(theta="-5/6")
     slow = simulate(chain, 3.0)
     state = slow.at([3.0])
@@ -74,7 +75,7 @@ def test_balance_holds_across_a_step_of_the_drive_velocity():
 
 
 def test_blocks_that_have_slid_obey_their_own_balance():
-    """Up to the onset of each event of Fig. 13, with W(L_p) in place of F_Z."""
+    """Until the onset of each event of Fig. 13, with W(L_p) instead of F_Z."""
     run = simulate(Chain.from_slider(n_blocks=20), until="global slip")
     counted = find_precursors(find_slips(run))
     chain = run.chain

@@ -1,4 +1,4 @@
-"""Straight lines between the points of the load curve draw it."""
+"""Straight lines between the points of the load curve represent the load."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ from precursors import Chain, find_slips, simulate
 from precursors.analysis import load_curve as module
 from precursors.analysis.load_curve import TOLERANCE_N, load_curve, load_trace
 
-# Some thirty points on the shortest wiggle of a slip.
+# Some thirty points per shortest oscillation in a slip.
 POINTS_PER_SLIP = 1000
 MOST_BYTES = 3e6
 SEEN_N = 0.01  # a hundredth of a pixel, or less
@@ -35,9 +35,7 @@ def test_load_curve_of_one_block_needs_no_more_points():
     assert len(times) == 1343
 
 
-def test_weightless_block_1_is_drawn_with_bounded_points(
-    monkeypatch,
-):
+def test_weightless_block_1_is_drawn_with_bounded_points(monkeypatch):
     run = simulate(Chain.from_slider(theta=1), 0.01)
     times, loads = load_curve(run)
     between = np.linspace(0.0, run.duration, 10_000)

@@ -1,5 +1,5 @@
-"""The errors that a run predicts are compared with the proof: they are never too small,
-and not useless."""
+"""Predicted errors of a run, compared with a proof: they are never too small, and not
+uselessly large."""
 
 import numpy as np
 import pytest
@@ -21,17 +21,17 @@ from precursors.solver.run import Run
 CHAINS = sorted(path.name.split(".")[0] for path in CERTIFICATES.glob("*.json.gz"))
 TOLERANCE = 1e-9  # s
 TOLERANCES = [1e-15, 1e-13, 1e-11, 1e-9, 1e-7, 1e-5]  # s
-# An actual error may be so many times the one predicted: 0.7 is the largest known.
+# Largest ratio of an actual error to the predicted one; 0.7 is the largest known.
 OPTIMISM = 2.0
-# Somewhere a prediction is no more than so many times the error: it is at most 10 times
-# on every chain below.
+# Smallest ratio of a predicted error to the actual one on a chain, at most; it is up to
+# 10 on the chains below.
 PESSIMISM = 30.0
-# A near miss is told where a neighbour first does not miss.
+# Relative error of the time of a near standstill, which a neighbouring run detects.
 NEAR = 0.02
 
 
 def beside_proof(certificate: Certificate) -> tuple[Run, Comparison, PredictedErrors]:
-    """A run of the chain that is proved, its errors, and those that it predicts."""
+    """Return a run of the proved chain, its actual errors and its predicted ones."""
     truth = Truth.proved(certificate)
     start = [float(x) for x in certificate.start_positions]
     run = simulate(truth.run.chain, truth.run.duration, start_positions=start)
@@ -56,8 +56,7 @@ def test_predicted_errors_bound_true_errors_and_are_not_useless(name):
     moving = predicted[:n] > 0.0
     actual = np.maximum.accumulate(compared.time_errors[known[:n]])[moving]
     assert (actual / np.maximum.accumulate(predicted)[moving]).max() > 1 / PESSIMISM
-    # The tolerance is met for longer than half of the time that the run is really
-    # right.
+    # The horizon is longer than half of the time for which the run is right.
     wrong = run.transitions["time"][:n][compared.time_errors > TOLERANCE]
     right_until = min(*wrong[:1], compared.first_difference, run.duration)
     horizon = predictions.horizon(TOLERANCE)
@@ -67,7 +66,7 @@ def test_predicted_errors_bound_true_errors_and_are_not_useless(name):
 
 
 def test_predicted_errors_hold_where_stops_are_nearly_missed():
-    """Sliding block 1 nearly keeps the drive's speed, as friction hardly drops."""
+    """Block 1 slides at nearly the speed of the drive, because friction hardly drops."""
     exact = ExactChain.from_slider(
         8, theta="0.6", drive_stiffness=19e6, drive_velocity="8e-3", mu_k="0.69973"
     )

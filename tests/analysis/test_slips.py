@@ -34,7 +34,7 @@ def random_chain(rng: np.random.Generator) -> Chain:
 
 
 def random_transitions(rng: np.random.Generator) -> Record:
-    """A list of transitions that obeys no mechanics: rests without duration, turns, an
+    """Make transitions that no mechanics would give: rests without duration, turns, an
     unfinished event."""
     n_blocks = int(rng.integers(1, 5))
     n = int(rng.integers(1, 40))
@@ -52,8 +52,8 @@ def random_transitions(rng: np.random.Generator) -> Record:
 
 
 def without_load(run, share=0.0):
-    """The same transitions, of a chain whose last block bears no load, or a share of
-    that of the others."""
+    """Return the same transitions on a chain whose last block bears only a share of its
+    load."""
     weights = run.chain.weights.copy()
     weights[-1] *= share
     return replace(run, chain=replace(run.chain, weights=weights))

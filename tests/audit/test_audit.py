@@ -1,5 +1,4 @@
-"""The auditor: it passes what is a motion of the model and finds each kind of
-falsification."""
+"""The audit accepts motions of the model and detects each kind of mistake."""
 
 import copy
 import math
@@ -18,8 +17,8 @@ from precursors.audit import audit, carried, conditions, motion
 from precursors.audit.checks import MAX_PROBLEMS, Auditor
 from precursors.model.chain import remember_theta
 
-# What an exact run of the paper's scenes is off by at most, in roundings; 16
-# may pass.
+# Largest deviation of an exact run of the paper's scenes, in roundings; the audit
+# allows 16.
 FEW_ROUNDINGS = 4.0
 # A mistake in a time that the audit must report: a ten-thousandth of the shortest slip [s].
 SHIFT = 1e-9
@@ -68,8 +67,7 @@ def test_audit_detects_a_dip_between_its_first_probes(dip, is_motion):
 
 
 def test_bound_on_fourth_derivatives_holds(monkeypatch):
-    """From random states: slopes are the derivatives of the values, and none bends more
-    than the bound."""
+    """From random states, slopes are also the derivatives of the values."""
     for module in (carried, conditions, motion):  # compiling them takes longer
         for name, function in vars(module).copy().items():
             if hasattr(function, "py_func"):
@@ -109,8 +107,8 @@ def test_bound_on_fourth_derivatives_holds(monkeypatch):
 
 
 def test_lower_bound_of_a_cell_holds_and_is_sharp():
-    """A cubic, known by its values and slopes at both ends, less M s^2 (d - s)^2 /
-    24."""
+    """The bound is sharp for a cubic with given values and slopes at both ends, less M
+    s^2 (d - s)^2 / 24."""
     cells = np.random.default_rng(4).normal(size=(4, 2000))
     cells[:, 0] = 0.0
     width = 0.3
@@ -130,7 +128,8 @@ def test_lower_bound_of_a_cell_holds_and_is_sharp():
 
 
 def test_audit_that_takes_too_much_work_reports_where_it_ends(uniform, monkeypatch):
-    """A slide of a soft drive is long against the fastest mode, and takes many cells."""
+    """With a soft drive, a slide is long compared with the fastest mode and takes many
+    cells."""
     monkeypatch.setattr(sys.modules[Auditor.__module__], "MAX_VALUES", 20_000)
     audit(simulate(uniform.chain, 0.35 + 1e-3)).raise_if_failed()
     report = audit(simulate(replace(uniform.chain, drive_stiffness=1.0), 5e6))
@@ -142,8 +141,7 @@ def test_audit_that_takes_too_much_work_reports_where_it_ends(uniform, monkeypat
 
 
 def without(run: Run, *removed: int) -> Run:
-    """The run with some of its transitions left out: their intervals join the next
-    one."""
+    """Remove transitions from a run and add their intervals to the next one."""
     instant = np.concatenate([[0.0], np.cumsum(run.intervals)])
     intervals = np.delete(run.intervals, removed)
     remaining = np.delete(np.arange(len(run.transitions)), removed)
@@ -162,7 +160,7 @@ def changed(run: Run, k: int, **values) -> Run:
 
 
 def shifted(run: Run, k: int, seconds: float) -> Run:
-    """The run with one transition, and its recorded time, moved."""
+    """Move one transition of a run and its recorded time."""
     run = changed(run, k, time=run.transitions["time"][k] + seconds)
     intervals = run.intervals.copy()
     intervals[k : k + 2] += seconds, -seconds
@@ -170,13 +168,13 @@ def shifted(run: Run, k: int, seconds: float) -> Run:
 
 
 def next_of_block(run: Run, k: int) -> int:
-    """Number of the next transition of the block of transition k."""
+    """Return the number of the next transition of the same block."""
     block = run.transitions["block"]
     return k + 1 + int(np.argmax(block[k + 1 :] == block[k]))
 
 
 def falsified(uniform: Run) -> Iterator[tuple[Run, str]]:
-    """Runs with one mistake each, and what the auditor says of them first."""
+    """Yield runs with one mistake each, and the first problem that the audit reports."""
     stop, stick = np.flatnonzero(uniform.transitions["mode"] == 0)[[0, 4]]
     yield shifted(uniform, 0, SHIFT), "block 1 is stuck, pushed forward beyond mu_s w"
     yield shifted(uniform, stop, SHIFT), r"block 1 slides against its mode \+1"
@@ -221,7 +219,7 @@ def falsified(uniform: Run) -> Iterator[tuple[Run, str]]:
 
 
 def falsified_states(run: Run) -> Iterator[tuple[Run, str]]:
-    """Runs with one mistake each in what `at` starts from."""
+    """Yield runs with one mistake each in the stored states, from which `at` starts."""
     states = run.states
     for name, words in [
         ("force", "state 1 has a force of block . that is wrong by .* N"),
@@ -271,8 +269,8 @@ def test_tolerance_can_be_set_for_an_approximate_run(uniform):
 
 
 def test_positions_far_from_zero_are_judged_by_their_rounding():
-    """Blocks 1 and 4 start at their limits; the soft drive is so far away that rounding
-    moves them beyond."""
+    """Blocks 1 and 4 start at their limits. The soft drive is so far away that rounding
+    pushes them beyond."""
     chain = SLIDER(n_blocks=5, drive_stiffness=25.0)
     pushes = 0.1 + 0.01 * np.arange(5)
     pushes[[0, 3]] = chain.strength[[0, 3]] * [1, -1]

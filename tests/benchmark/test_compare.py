@@ -1,4 +1,4 @@
-"""A run is compared with the truth transition by transition."""
+"""Comparison of a run with the truth, transition by transition."""
 
 import math
 from fractions import Fraction
@@ -18,16 +18,15 @@ from precursors.benchmark.compare import Truth, compare, until_global_slip
 
 
 def altered(*changes, shift: float = 0.0, after: int = len(TRUE)) -> list[tuple]:
-    """The true rows with others in some places, and times shifted in and after one of
-    them."""
+    """Replace some of the true rows, and shift the times from row `after` on."""
     rows = [(t + shift * (k >= after), *rest) for k, (t, *rest) in enumerate(TRUE)]
     for k, row in changes:
         rows[k] = row
     return rows
 
 
-# A run, its right transitions, its largest errors [s, N], and when it first
-# differs [s].
+# Rows of a run, number of right transitions, largest errors [s, N], and time of the
+# first difference [s].
 COMPARED = {
     "the truth": (TRUE, 12, 0.0, 0.0, math.inf),
     "late, and once early": (

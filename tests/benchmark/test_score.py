@@ -11,21 +11,21 @@ from precursors.analysis.slips import find_slips
 from precursors.benchmark.score import problems, score, solution
 
 HEADER = "time_s,block,mode,tangential_load_N"
-# Largest error of a number that is rounded to a double, below 16 s and 512 N.
+# Largest rounding errors of doubles below 16 s and 512 N.
 ROUNDING_S = 2.0**-50
 ROUNDING_N = 2.0**-45
 
 
 @cache
 def true_rows(problem: str = "uniform") -> tuple[str, ...]:
-    """The proved list as a result file, with times and loads rounded once."""
+    """Return the rows of a result file with the proved list, rounded to doubles."""
     rows = solution(problem).run.transitions.tolist()
     return tuple(",".join(map(repr, row)) for row in rows)
 
 
 @pytest.fixture
 def scored(tmp_path: Path):
-    """Score the lines of a result file."""
+    """Write the lines of a result file and score it."""
 
     def of(*lines: str, problem: str = "uniform", ties: float = 0.0):
         path = tmp_path / "mine.csv"

@@ -1,5 +1,5 @@
-"""The command line: what each command prints and returns, one line for every error, a
-start at once."""
+"""The command line: output and exit code of each command, errors of one line, and a
+fast start."""
 
 import inspect
 import io
@@ -32,19 +32,18 @@ from precursors.figures.run import plot
 HEAVY = {"numpy", "numba", "pandas", "h5py", "matplotlib", "scipy"}
 COMMAND = [sys.executable, "-m", "precursors"]  # which is precursors/__main__.py
 CODES = [0, 1, 2, 3, 4, 130]
-SEVEN_DIGITS = 5e-7  # relative, of what is printed
+SEVEN_DIGITS = 5e-7  # relative error of printed numbers
 
 
 @pytest.fixture(scope="session")
 def _compiled():
-    """The solver, which says so on standard error when it is compiled."""
+    """Compile the solver, which would print a note on standard error."""
     simulate(Chain.from_slider(), 0.4).at([0.4])
 
 
 @pytest.fixture
 def cli(capsys, _compiled):
-    """Run a command; return its exit code, and what it wrote to standard output and
-    standard error."""
+    """Run a command; return its exit code, standard output and standard error."""
 
     def run(*arguments):
         try:
@@ -591,11 +590,9 @@ def test_interrupt_stops_compiled_code():
     )
     assert command.stdout.readline() == "running\n"
     command.send_signal(signal.SIGINT)
-    out, err = command.communicate(
-        timeout=300
-    )  # far more than it takes, unless it hangs
+    out, err = command.communicate(timeout=300)  # it takes far less unless it hangs
     assert command.returncode == 130
-    assert set(out.splitlines()) <= {"running"}  # some calls of the kernel more
+    assert set(out.splitlines()) <= {"running"}  # the kernel may be called again
     assert err == "precursors simulate: interrupted\n"
 
 

@@ -1,4 +1,4 @@
-"""The picture of the push says what the run does."""
+"""The figure of the push agrees with the run."""
 
 import numpy as np
 import pytest
@@ -8,8 +8,8 @@ from precursors.figures import push
 
 
 def test_each_panel_states_why_its_slip_stops():
-    """18 N a block: 79.0 N are used up in block 5, 164.7 N in block 10, 194.3 N never.
-    Block 4 stays, with a step of 27.8 N, when event 14 stops."""
+    """With 18 N per block, 79.0 N are used up in block 5, 164.7 N in block 10, and 194.3 N
+    never. Block 4 bears 27.8 N and rests when event 14 stops."""
     run = simulate(Chain.from_slider(), until="global slip")
     figure = plot(run, "push", events=[5, 12, 14, 16])
     assert figure.get_suptitle() == push.FINDING
@@ -25,7 +25,7 @@ def test_each_panel_states_why_its_slip_stops():
 
 
 def test_title_is_omitted_if_a_farthest_slip_contradicts_it():
-    """At -5/6 the longest slip goes on beyond, and short slips alone bear nothing out."""
+    """At theta = -5/6 the longest slip passes the point at which its push is used up."""
     run = simulate(Chain.from_slider(theta=-5 / 6), until="global slip")
     figure = plot(run, "push")
     assert figure.get_suptitle() == ""

@@ -1,5 +1,4 @@
-"""Files of figures are the same bytes each time; looks and orders that must agree
-do."""
+"""Files of figures are reproducible, and colours and markers are distinct."""
 
 from io import BytesIO
 
@@ -17,7 +16,7 @@ from precursors.figures import precursor_lengths, scene, style
 
 
 def small_figure():
-    """A line, plain text and a pale band."""
+    """Draw a line, labels and a pale band."""
     with style.page(85.0, 40.0) as figure:
         axes = figure.add_subplot()
         axes.plot([0.0, 1.0], [0.0, 1.0])
@@ -59,7 +58,7 @@ def test_savefig_ignores_user_settings_of_size_and_fonts(tmp_path):
 def test_figure_displays_in_a_notebook_without_font_warnings(caplog):
     figure = plot(simulate(Chain.from_slider(), 1.0))
     assert figure._repr_png_().startswith(b"\x89PNG")
-    figure.canvas.print_figure(BytesIO())  # as Jupyter's own back end does
+    figure.canvas.print_figure(BytesIO())  # as the back end of Jupyter does
     assert caplog.messages == []
 
 

@@ -1,4 +1,4 @@
-"""The movie shows what the run does."""
+"""The movie agrees with the run."""
 
 from xml.etree import ElementTree
 
@@ -11,13 +11,13 @@ from precursors import Chain, plot, simulate
 from precursors.figures import style, wave
 
 SVG = f"{{{wave.XMLNS}}}"
-# Coordinates are written with one digit.
+# Coordinates are written with one decimal.
 PIXELS = 0.06
 
 
 class TwoBlocks:
-    """From 1 to 3 s: block 1 slides 1 m forward at once and stops at 2 s; block 2
-    slides back between."""
+    """An event from 1 to 3 s: block 1 slides 1 m forward until 2 s, and block 2 slides
+    backward in between."""
 
     transitions = np.array(
         [(0.5, 2, 1), (0.9, 2, 0), (1.0, 1, 1), (1.5, 2, -1), (2.0, 1, 0), (2.5, 2, 0)],

@@ -1,4 +1,4 @@
-"""A chain holds the paper's equations 7 to 10, and refuses what they cannot mean."""
+"""A chain fulfils Eqs. 7-10 of the paper and refuses values out of range."""
 
 import copy
 import math
@@ -64,7 +64,7 @@ def test_a_chain_cannot_be_changed():
 
 
 class Quantity(np.ndarray):
-    """An array with a unit, which NumPy drops."""
+    """An array with a unit, which NumPy discards."""
 
     units = "kN"
 
@@ -245,7 +245,7 @@ def test_a_profile_is_integrated_over_each_block():
             Chain.from_profile(wrong)
 
 
-# Areas below the lines between points, by hand [MPa mm].
+# Areas below the lines between points, computed by hand [MPa mm].
 PRESSURES = {0: 1, 5: 3, 10: 2, 20: 2, 35: 5, 50: 4, 65: 3, 80: 3, 90: 2, 100: 0}
 AREAS = [22.5, 20.0, 30.0, 140 / 3, 130 / 3, 110 / 3, 185 / 6, 30.0, 25.0, 10.0]
 

@@ -1,5 +1,5 @@
-"""Certificates come back from their files, are what is proved, and are refused if they
-are not."""
+"""Certificates round-trip through their files, and are refused if they differ from
+their proof."""
 
 import dataclasses
 import gzip
@@ -144,9 +144,7 @@ def test_bad_argument_is_named(slider, argument, message):
         certify(SLIDER(**slider), **argument)
 
 
-def test_missing_python_flint_names_the_extra(
-    monkeypatch,
-):
+def test_missing_python_flint_names_the_extra(monkeypatch):
     monkeypatch.setitem(sys.modules, "flint", None)
     for name in ("tube", "motion", "event_roots"):
         monkeypatch.delitem(sys.modules, f"precursors.proof.{name}", raising=False)

@@ -33,9 +33,9 @@ from precursors.proof.motion import (
 from precursors.proof.tube import Proof
 
 BITS = 64
-# How closely a root is isolated: Newton's method has stopped to halve the enclosure.
+# Width of an enclosure at which Newton's method stops.
 ISOLATED = 1e-15
-# NumPy's roots of random polynomials of degree 5 are good to so much.
+# Error of the roots by NumPy of random polynomials of degree 5.
 NUMPY = 1e-12
 
 
@@ -46,7 +46,7 @@ def function(
     width: float = 0.0,
     fresh: bool = False,
 ):
-    """An event function from its coefficients, known to within some width."""
+    """Make an event function from its coefficients, known to within `width`."""
     u = arb_poly(value)
     slope = u.derivative()
     around = arb(0, width)
@@ -56,7 +56,7 @@ def function(
 
 
 def through(*roots: float, **how):
-    """The polynomial with these roots, positive before the first."""
+    """Make the polynomial with these roots, positive before the first."""
     coefficients = np.polynomial.polynomial.polyfromroots(roots)
     return function(((-1.0) ** len(roots) * coefficients).tolist(), **how)
 
@@ -157,7 +157,7 @@ def test_undecidable_crossing_raises_a_question(functions, back, question, time)
 
 
 def equations(of: Constants, mode: list[int]) -> np.ndarray:
-    """The matrix M of Eqs. 2-4, y' = M y with y = (T_1..T_N, u_1..u_N, 1)."""
+    """Return the matrix M of Eqs. 2-4, y' = M y with y = (T_1..T_N, u_1..u_N, 1)."""
     springs = np.array([float(c) for c in of.coupling[1:-1]])
     friction = np.array([float(x) for x in of.friction[1:-1]])
     modes = np.array(mode[1:-1])
@@ -169,7 +169,7 @@ def vector(state: EnclosedState) -> np.ndarray:
 
 
 def scale(of: Constants) -> np.ndarray:
-    """What y is divided by in the norm of the energy."""
+    """Return the divisors of y in the energy norm."""
     springs = [float(c) for c in of.coupling[1:-1]]
     return np.append(np.sqrt(springs), np.ones(len(springs)))
 
@@ -177,8 +177,7 @@ def scale(of: Constants) -> np.ndarray:
 def exact_rows(
     proof: Proof, function: EventFunction, matrix: np.ndarray
 ) -> list[np.ndarray]:
-    """The event function and its derivatives, as far as it has any, as rows that
-    multiply y."""
+    """Return the event function and its derivatives as rows that multiply y."""
     n = proof.chain.n_blocks
     i = function.block
     way = function.direction
@@ -200,25 +199,23 @@ def functions_of(proof: Proof, distance: float, bits: int) -> list[EventFunction
 
 @pytest.fixture(scope="module")
 def sliding() -> Proof:
-    """Theta = -5/6 in the event in which block 10 first turns round: some blocks slide,
-    some are stuck."""
+    """Return a proof for theta = -5/6 in the event in which block 10 first turns round:
+    some blocks slide, some are stuck."""
     proof = proof_of(ExactChain.from_slider(theta="-5/6"), 256)
     while len(proof.transitions) < 53:
         go_on(proof)
     return proof
 
 
-# How close the exact motion comes to the bound of what 12 bits leave out: value, slope
-# and bend of a speed, the value of a margin (its rate is integrated, and the bound with
-# it) and its slope.
+# Smallest share of the bound that the error with 12 bits reaches: value, slope and bend
+# of a speed, then value and slope of a margin. The value of a margin is the integral of
+# a rate, and so is its bound.
 CLOSEST = {(0, 0): 0.7, (1, 0): 0.7, (2, 0): 0.7, (0, 1): 0.01, (1, 1): 0.15}
 
 
-def test_event_functions_enclose_the_exact_ones_closely(
-    sliding,
-):
-    """Beside the matrix exponential, with so few bits that the remainder of the series
-    is seen."""
+def test_event_functions_enclose_the_exact_ones_closely(sliding):
+    """The reference is the matrix exponential. With 12 bits, the remainder of the
+    series is visible."""
     functions = functions_of(sliding, 0.0, 12)
     matrix = equations(sliding.bounds, sliding.state.mode)
     closest = dict.fromkeys(CLOSEST, 0.0)
@@ -235,11 +232,8 @@ def test_event_functions_enclose_the_exact_ones_closely(
     assert all(closest[key] > least for key, least in CLOSEST.items()), closest
 
 
-def test_event_functions_cover_runs_within_twice_the_distance(
-    sliding,
-):
-    """At the start, where a function and its derivatives are linear in T_i / sqrt c_i
-    and u_i."""
+def test_event_functions_cover_runs_within_twice_the_distance(sliding):
+    """At the start, functions and derivatives are linear in T_i / sqrt c_i and u_i."""
     n = sliding.chain.n_blocks
     distance = 1e-6
     mode = sliding.state.mode
@@ -262,8 +256,8 @@ def test_event_functions_cover_runs_within_twice_the_distance(
 
 
 def test_advanced_state_is_within_its_distance_of_the_exact_one(sliding):
-    """Beside the matrix exponential, with so few bits that the remainder of the series
-    is seen."""
+    """The reference is the matrix exponential. With 12 bits, the remainder of the
+    series is visible."""
     bounds = sliding.bounds
     step = 0.25
     with ctx.workprec(BITS):
@@ -280,8 +274,8 @@ SLOW: dict[str, Any] = {
     "drive_stiffness": "1e3",
     "drive_velocity": "1e-20",
 }
-# Slider, modes, forces and rates of the state, distance [N], and by how much its bound
-# is too large.
+# Slider; modes, forces and rates of the state; distance [N]; largest ratio of the bound
+# to the change.
 CHANGES = {
     "the drive": ({"n_blocks": 1, "mu_k": 0}, [1], [0], [0], 0, 4.8),
     "friction": (SLOW, [1, -1], [0, 0], [0, 0], 0, 3.3),
@@ -299,8 +293,8 @@ CHANGES = {
 def test_change_of_net_force_stays_within_its_bound(
     slider, mode, force, rate, distance, slack
 ):
-    """Beside the matrix exponential; a run may have the velocity, or be as far as that
-    from the state."""
+    """The reference is the matrix exponential. A velocity may be in the state or within
+    its distance."""
     chain = ExactChain.from_slider(**slider)
     gap = 0.5
     state = EnclosedState(

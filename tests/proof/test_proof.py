@@ -1,5 +1,5 @@
-"""Proofs are right: beside closed forms, the double solver, and runs that start a
-little apart."""
+"""Proofs agree with closed forms, with the solver in double precision, and with runs
+that start slightly apart."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -33,13 +33,12 @@ from precursors.proof import (
 from precursors.proof.motion import EnclosedState, tail, time_unit
 from precursors.proof.tube import Proof
 
-# An enclosure is at least so good [s], [N].
+# Largest radii of enclosures [s, N].
 TIME_RADIUS = Fraction(1, 10**40)
 LOAD_RADIUS = Fraction(1, 10**35)
 # Errors of the solver up to the first global slip [s].
 SOLVER = 1e-12
-# So few that the enclosures are wide, and a start so close to the edge of what they
-# hold at time 0.
+# Few bits, so that enclosures are wide, and a start near the edge of the one at time 0.
 COARSE_BITS = 128
 CLOSE_TO_REACH = Fraction(99, 100)
 # Rounding of clocks of 300 bits [s].
@@ -59,9 +58,7 @@ def digits(x: Fraction) -> mpmath.mpf:
 
 
 @pytest.mark.parametrize("slider", [{"theta": "-5/6"}, {"n_blocks": 1}])
-def test_first_slip_is_that_of_a_loaded_oscillator(
-    slider,
-):
+def test_first_slip_is_that_of_a_loaded_oscillator(slider):
     """m x'' = drop + K V t - stiffness x from rest at x = 0, as in `chains.lone_slip`."""
     chain = ExactChain.from_slider(**slider)
     rate = chain.drive_stiffness * chain.drive_velocity
@@ -87,10 +84,8 @@ def test_first_slip_is_that_of_a_loaded_oscillator(
 
 
 @pytest.mark.parametrize("theta", ["-5/6", "5/6", "-1"])
-def test_proof_agrees_with_the_solver_up_to_the_global_slip(
-    theta,
-):
-    """Or, at theta = -1, a chain with a block that bears no load."""
+def test_proof_agrees_with_the_solver_up_to_the_global_slip(theta):
+    """At theta = -1, the last block bears no load."""
     chain = ExactChain.from_slider(theta=theta)
     truth = Truth.proved(certify(chain, 10, until="global slip"))
     comparison = compare(simulate(chain.to_chain(), until="global slip"), truth)
@@ -99,7 +94,7 @@ def test_proof_agrees_with_the_solver_up_to_the_global_slip(
 
 
 def test_proof_ends_when_all_blocks_with_load_have_slipped():
-    """A block with a millionth of the mean load slides on."""
+    """A block with a millionth of the mean load still slides then."""
     weights = np.full(5, 80.0)
     weights[4] = 1e-6 * 80.0
     chain = SLIDER(weights=weights)
@@ -149,13 +144,10 @@ def test_near_tie_is_decided_with_more_bits():
 
 
 @pytest.mark.parametrize("displaced", [1, 2])
-def test_run_started_within_the_distance_stays_enclosed(
-    displaced,
-):
+def test_run_started_within_the_distance_stays_enclosed(displaced):
     chain = ExactChain.from_slider()
     reach = fraction(proof_of(chain, COARSE_BITS).state.distance)
-    # One block is displaced, so that the spring forces are at this distance [N] from
-    # zero.
+    # The displacement of one block puts the spring forces almost at this distance [N].
     behind, ahead = chain.springs[displaced - 1 : displaced + 1]
     stiffness = Fraction(
         math.sqrt((behind + ahead) * chain.mass / time_unit(chain) ** 2)
@@ -209,7 +201,7 @@ def fraction(x: arb) -> Fraction:
 
 
 def test_absorbed_radii_are_measured_in_the_energy_norm():
-    """sum T_i^2 / c_i + u_i^2, for two blocks."""
+    """The norm is sum T_i^2 / c_i + u_i^2, here for two blocks."""
     constants: Any = SimpleNamespace(coupling=[arb(c) for c in (0, 0.25, 4, 0)])
     state = EnclosedState([], [], [0] * 4, arb(1))
     forces = [arb(0), arb(5, 3), arb(6, 4), arb(0)]
@@ -221,8 +213,8 @@ def test_absorbed_radii_are_measured_in_the_energy_norm():
 
 @pytest.mark.parametrize(("last", "derivative"), [(9, 1), (6, 2)])
 def test_bound_of_the_remainder_is_close_to_its_first_terms(last, derivative):
-    """u'' = -omega^2 u: of every other coefficient 0, a_{n+2} = omega^2 a_n / ((n +
-    1)(n + 2)) in size."""
+    """With u'' = -omega^2 u, every other coefficient is 0, and |a_{n+2}| = omega^2 |a_n|
+    / ((n + 1)(n + 2))."""
     omega2 = Fraction(4)
     span = Fraction(1, 1000)
     constants: Any = SimpleNamespace(frequency_squared=arb(4))
@@ -255,8 +247,7 @@ def test_certificate_encloses_the_proof_and_is_hardly_wider():
             enclosure = getattr(published, name)
             ball = getattr(proved, name)
             radius = fraction(ball.rad())
-            # One per cent is to spare, and less than one is lost by writing three
-            # digits.
+            # Radii are enlarged by 1 %; rounding to three digits adds less than 1 %.
             spare = Fraction(101, 100)
             least = spare * (radius + abs(enclosure.midpoint - fraction(ball.mid())))
             assert least <= enclosure.radius <= spare * least + Fraction(1, 10**47)
@@ -275,8 +266,8 @@ def test_transition_exactly_at_the_end_of_the_run_is_a_tie():
 
 
 def lone_block(excess: str) -> Certificate:
-    """One block without friction that starts at 2 V (1 + excess), until before it is
-    back.
+    """Prove part of a cycle of one block without friction that starts at 2 V (1 +
+    excess).
 
     Its speed is V + (1 + 2 excess) V cos(omega t): at excess = 0 it only touches zero.
     """

@@ -1,7 +1,7 @@
-"""No root is passed over: the proof of a window, the safe steps and the search, against
-exact series.
+"""The solver passes over no root: its bounds of a window, safe steps and root search are
+checked on exact series.
 
-A step that is too short costs time: `test_work` counts it.
+Steps that are too short only cost time, which `test_work` counts.
 """
 
 import math
@@ -18,14 +18,16 @@ from precursors.solver.kernel.proof import TAIL
 from precursors.solver.kernel.units import parameters, set_up
 
 WINDOWS = 400
-ROUNDING = 1e-12  # of a window; numpy.roots knows a simple root to some roundings
+ROUNDING = 1e-12  # error of numpy.roots for a simple root, as a share of a window
 
 
 @pytest.fixture(scope="module")
 def windows() -> list[tuple[np.ndarray, float]]:
-    """Series with c_0 > 0 and terms of either sign that fall off like those of Taylor's,
-    each with its first root in [0, 1], or infinity; and parabolas, in which no step may
-    be longer."""
+    """Return series with c_0 > 0, each with its first root in [0, 1] or infinity.
+
+    Terms have random signs and decrease as in a Taylor series. The first three are
+    parabolas, for which the safe step is the longest possible.
+    """
     random = np.random.default_rng(3)
     size = [2.0**k / math.factorial(k) for k in range(12)]
     all_series = random.standard_normal((WINDOWS, 12)) * size
@@ -51,8 +53,7 @@ def test_safe_step_passes_no_root(windows):
 
 @pytest.mark.parametrize("shift", [0, 2])
 def test_search_returns_the_first_root_or_none(windows, shift, monkeypatch):
-    """Also where the series begins with roots at the start, which were dealt with
-    already."""
+    """With `shift`, the series also has roots at the start, which are ignored."""
     for function in (roots.safe_step, roots.move_series):
         monkeypatch.setattr(roots, function.__name__, function.py_func)
     progress = SimpleNamespace(root_steps=0)
@@ -64,7 +65,7 @@ def test_search_returns_the_first_root_or_none(windows, shift, monkeypatch):
 
 
 def test_function_stays_within_the_bounds_of_its_window(monkeypatch):
-    """Terms up to u^5, the value at the end, and a rest that does the worst it may."""
+    """A function has terms up to u^5, a value at the end, and the worst remainder."""
     lanes = SimpleNamespace(smaller=np.minimum, larger=np.maximum)
     monkeypatch.setattr(proof, "lanes", lanes)
     random = np.random.default_rng(6)
@@ -81,13 +82,12 @@ def test_function_stays_within_the_bounds_of_its_window(monkeypatch):
     largest = (middle + reach).max(axis=0)
     assert (np.minimum(low, at_end) <= least + ROUNDING).all()
     assert (largest <= high + ROUNDING).all()
-    # No wider than they are: less is better.
+    # The current width of the bounds: less is better.
     assert np.median((high - low) / (largest - least)) < 1.57
 
 
 def test_bound_of_the_remainder_has_its_closed_form():
-    """sum_n (n - 6) s^n/n! over n >= 9, as a closed form: (s - 6) e^s less its first
-    terms."""
+    """sum_n (n - 6) s^n/n! over n >= 9 is (s - 6) e^s less its first terms."""
     terms = [WINDOW**n / math.factorial(n) for n in range(9)]
     rest = WINDOW * (math.exp(WINDOW) - sum(terms[:8])) - 6 * (
         math.exp(WINDOW) - sum(terms)
@@ -96,8 +96,8 @@ def test_bound_of_the_remainder_has_its_closed_form():
 
 
 def test_remainder_of_a_series_is_within_its_bound():
-    """Of terms from the ninth on, of all that is watched in the longest window; they
-    come from the equations of motion."""
+    """Terms from the ninth on follow from the equations of motion, for all velocities and
+    forces in the longest window."""
     later = range(9, ORDER + 1)
     factor = np.array([(n - 6) * WINDOW**n / math.factorial(n) for n in later])
     for seed in range(200):

@@ -1,5 +1,4 @@
-"""A run knows the motion at every time, and its file gives back every bit or is
-refused."""
+"""A run gives the motion at any time, and its file restores every bit or is refused."""
 
 import fcntl
 from collections.abc import Iterator
@@ -16,7 +15,7 @@ from precursors import Record, Run, RunFileError, audit, simulate
 from precursors.solver.record import arrays_of
 from precursors.solver.run_file import SCALARS, WITHOUT_CHECKSUM
 
-# Of the duration: some tens of transitions of chains drawn at random.
+# Error after some tens of transitions of random chains, relative to the duration.
 RANDOM = 1e-9
 
 
@@ -27,7 +26,7 @@ def run():
 
 @pytest.fixture
 def path(run, tmp_path):
-    """The file of the run."""
+    """Save the run and return the path."""
     run.save(tmp_path / "run.h5")
     return tmp_path / "run.h5"
 
@@ -51,17 +50,13 @@ def test_times_may_come_in_any_order(run):
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_run_resumed_from_any_state_has_the_same_transitions(
-    seed,
-):
-    """The drive is at 0 when a run begins, so that the chain is moved back by what the
-    drive went."""
+def test_run_resumed_from_any_state_has_the_same_transitions(seed):
+    """The drive starts each run at 0, so the chain is moved back by its path."""
     rng = np.random.default_rng(seed)
     case = mild_chain(rng)
     whole = case.run()
     cut = rng.uniform(0.2, 0.8) * whole.duration
-    # Times before it let `at` compute the state from an earlier one, and from one within
-    # the same slip.
+    # With earlier times, `at` also starts from states before this slip and within it.
     positions, velocities = whole.at([0.0, cut / 2, 0.999 * cut, cut])
     at_0 = whole.start_positions, whole.start_velocities
     np.testing.assert_allclose((positions[0], velocities[0]), at_0, rtol=1e-12)
@@ -92,14 +87,14 @@ def test_times_outside_the_run_or_not_numbers_are_refused(run, times, words):
 
 
 def without_checksum(path: Path) -> None:
-    """Make a file one of the releases that wrote no checksum."""
+    """Turn a file into one of an older release, without a checksum."""
     with h5py.File(path, "r+") as file:
         file.attrs["format"] = np.bytes_(WITHOUT_CHECKSUM)
         del file.attrs["checksum"]
 
 
 def assert_same(read: Record, run: Record) -> None:
-    """Demand that two records have the same numbers, to the last bit."""
+    """Assert that two records are equal to the last bit."""
     assert (read.chain, read.duration) == (run.chain, run.duration)
     np.testing.assert_array_equal(read.transitions, run.transitions)
     np.testing.assert_array_equal(read.intervals, run.intervals)
@@ -143,7 +138,7 @@ def test_incomplete_run_file_is_refused_in_one_line(path):
 
 
 def test_file_that_cannot_be_locked_is_read(run, path):
-    """As on some file systems of clusters."""
+    """Some file systems of clusters do not support locks."""
     with path.open("rb") as file:
         fcntl.flock(file, fcntl.LOCK_EX)
         np.testing.assert_array_equal(Run.load(path).transitions, run.transitions)
@@ -153,7 +148,7 @@ def test_damaged_bytes_are_refused_or_change_nothing(run, path):
     random = np.random.default_rng(2010)
     whole = path.read_bytes()
     n_refused = 0
-    assert b"GCOL" not in whole  # texts without a checksum, in which HDF5 may hang
+    assert b"GCOL" not in whole  # HDF5 may hang in texts without a checksum
     for place in random.integers(0, len(whole), 100):
         spoiled = bytearray(whole)
         spoiled[place : place + 8] = random.bytes(8)
@@ -170,7 +165,7 @@ def test_damaged_bytes_are_refused_or_change_nothing(run, path):
 
 
 def other_values(values: np.ndarray) -> Iterator[np.ndarray]:
-    """What could stand in place of an array: other values, types, shapes, lengths."""
+    """Yield arrays with other values, types, shapes or lengths."""
     if values.dtype.kind == "f":
         one = values.copy()
         one.flat[np.argmax(abs(one))] *= 1 + 1e-6
@@ -184,8 +179,8 @@ def other_values(values: np.ndarray) -> Iterator[np.ndarray]:
 
 
 def changes(run: Run) -> Iterator[tuple[str, str, object]]:
-    """Names of datasets and attributes, and what is put in their place: None leaves
-    them out."""
+    """Yield names of datasets and attributes with their new values; None removes
+    them."""
     for name, values in arrays_of(run).items():
         for other in (None, *other_values(values)):
             if not np.array_equal(other, values) or other.dtype != values.dtype:
@@ -200,7 +195,7 @@ def changes(run: Run) -> Iterator[tuple[str, str, object]]:
 
 
 def changed(good: bytes, kind: str, name: str, value: object) -> bytes:
-    """The file of a run with one change."""
+    """Return the content of a run file with one change."""
     memory = BytesIO(good)
     with h5py.File(memory, "r+") as file:
         place = file.attrs if kind == "attribute" else file
@@ -268,7 +263,7 @@ def test_dataset_longer_than_its_file_is_refused(path):
 def test_file_of_a_larger_chain_names_the_version_that_reads_it(run, path):
     with h5py.File(path, "r+") as file:
         del file["states"]
-        file["load_points"] = np.zeros((2, 2))  # which only such a file has
+        file["load_points"] = np.zeros((2, 2))  # only files of larger chains have it
     words = r"^\S+run\.h5 is a run of a larger chain, .* git checkout 88883c9 reads it$"
     with pytest.raises(RunFileError, match=words):
         Record.load(path)

@@ -1,4 +1,4 @@
-"""Ensembles: every run of `simulate_many` is that of `simulate`."""
+"""Ensembles: `simulate_many` gives the runs of `simulate`."""
 
 import numpy as np
 import pytest
@@ -7,8 +7,8 @@ from chains import SLIDER
 from precursors import Chain, Run, simulate, simulate_many
 from precursors.solver import batch as solver
 
-ROUNDING = 1e-12  # of the largest position or velocity
-# Bytes for stored states that a long run exceeds.
+ROUNDING = 1e-12  # relative to the largest position or velocity
+# Limit of the stored states that long runs exceed [bytes].
 ROOM = 2**18
 
 
@@ -26,8 +26,8 @@ def same(one: Run, other: Run) -> bool:
 
 
 def mixed() -> list[Chain]:
-    """64 chains of several lengths and loads; four have more transitions than a
-    thread's record."""
+    """Make 64 chains of several lengths and loads; four have more transitions than the
+    record of a thread holds."""
     fast = {(10, j): 2e-2 for j in range(2, 16, 4)}
     return [
         SLIDER(n, theta=j / 16, drive_velocity=fast.get((n, j), 1e-4))
@@ -47,9 +47,7 @@ def test_ensemble_equals_its_chains_run_one_by_one(until):
     )
 
 
-def test_stored_states_are_thinned_without_changing_the_motion(
-    monkeypatch,
-):
+def test_stored_states_are_thinned_without_changing_the_motion(monkeypatch):
     chains = [chain for chain in mixed() if chain.drive_velocity > 1e-4]
     runs = simulate_many(chains, 1.0, threads=2)
     times = np.linspace(0.0, 1.0, 200)

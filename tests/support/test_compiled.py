@@ -14,9 +14,8 @@ from precursors.solver import kernel
 from precursors.support.compiled import CACHED_VERSIONS, checksum
 
 KERNEL = Path(kernel.__file__).parent
-PATIENCE = 300.0  # s: a start takes some seconds, far more only if it hangs
-# A kernel in small: a function that Python calls, and one that it calls in another
-# file.
+PATIENCE = 300.0  # [s]; a start takes a few seconds unless it hangs
+# A small kernel: a function that Python calls, and one in another file that it calls.
 ENTRY = """
 from small.decorators import outer
 from small.part import times
@@ -44,8 +43,8 @@ NOTICE = "compiling the solver for this machine, once: some 10 s\n"
 
 
 class Small:
-    """A package with a copy of the kernel's decorators, used in processes of its
-    own."""
+    """A package with a copy of the decorators of the kernel, used in its own
+    processes."""
 
     def __init__(self, directory: Path) -> None:
         self.directory = directory
@@ -61,12 +60,11 @@ class Small:
         (self.package / name).write_text(text, encoding="utf-8")
 
     def use(self) -> tuple[int, int, str]:
-        """What the entry point returns for 2, how often it came from the cache, and
-        what stderr says."""
+        """Return the result for 2, the number of cache hits, and standard error."""
         inherited = {
             key: value for key, value in os.environ.items() if key != "NUMBA_CACHE_DIR"
         }
-        # Python would take bytecode for that of an edit in the same second.
+        # Python would use old bytecode after an edit within the same second.
         inherited |= {"XDG_CACHE_HOME": str(self.cache), "PYTHONDONTWRITEBYTECODE": "1"}
         process = subprocess.run(
             [sys.executable, "-c", USE],
@@ -91,7 +89,7 @@ def test_clones_share_compiled_code_until_an_edit(small, tmp_path):
     clone = Small(tmp_path / "clone")
     clone.cache = small.cache
     assert clone.use() == (7, 1, "")
-    # As a power cut or a full disk leaves them: empty, and without an end.
+    # Empty and truncated files, as after a power cut or on a full disk.
     for i, file in enumerate(sorted(place.iterdir())):
         file.write_bytes(file.read_bytes()[: 100 * i])
         assert clone.use() == (7, 0, NOTICE)
@@ -120,7 +118,7 @@ def test_edits_and_new_names_change_the_checksum(tmp_path):
 
 
 def test_unwritable_cache_compiles_with_a_warning(small):
-    # A file where a directory should be stops root as well.
+    # A file in place of a directory also stops root.
     (small.package / "__pycache__").write_text("")
     small.cache.write_text("")
     result, hits, warnings = small.use()

@@ -1,5 +1,4 @@
-"""The digest of a job's code: it changes with what the job computes, and with nothing
-else."""
+"""The digest of the code of a job changes only with what the job computes."""
 
 import pytest
 
@@ -58,7 +57,7 @@ SUMS_FILE = "src/precursors/room/sums.py"
         (SUMS_FILE, SUMS.replace("a + b", "a - b"), True),
         ("src/precursors/given.py", "class Given:\n    x = 1\n", True),
         ("src/precursors/whole.py", "x = 2\n", True),
-        # by a name that only a run knows
+        # imported by a name that is only known at run time
         ("src/precursors/parts/one.py", "x = 2\n", True),
     ],
 )

@@ -1,4 +1,4 @@
-"""A file is complete or absent, and what was there before is never half overwritten."""
+"""A file is written completely or not at all; an old file is never half overwritten."""
 
 import os
 import resource

@@ -1,4 +1,4 @@
-"""Measured tables are read as their names and units say, or refused in one line."""
+"""Measured tables are read by their names and units, or refused in one line."""
 
 import numpy as np
 import pandas as pd

@@ -1,4 +1,4 @@
-"""The package: its public names, what it loads, and its wheel."""
+"""The package: its public names, its imports and its wheel."""
 
 import json
 import re
@@ -14,14 +14,14 @@ from places import ROOT
 import precursors
 from precursors.support.checkout import git_state
 
-# The compiler, and what only simulations and tables need.
+# The compiler, and packages that only simulations and tables need.
 HEAVY = {"numba", "h5py", "pandas"}
-# What the rules of the workflow import.
+# Imports of the rules of the workflow.
 RULES = "from maegawa2010.paper import inputs, shown"
 
 
 def loaded(program: str) -> set[str]:
-    """Modules that a program has loaded when it ends, in a process of its own."""
+    """Run a program in its own process and return the modules that it has imported."""
     command = [sys.executable, "-c", f"import sys\n{program}\nprint(*sys.modules)"]
     return set(
         subprocess.run(
@@ -54,7 +54,7 @@ def test_modules_are_imported_only_when_needed(program, missing):
 
 
 def test_library_works_without_its_extras():
-    """What only the workflow, the paper, the page and the proof need is not there."""
+    """Packages for the workflow, the paper, the page and the proof are missing."""
     text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
     project = tomllib.loads(text)["project"]
     extras = set(map(package, chain(*project["optional-dependencies"].values())))
@@ -95,7 +95,7 @@ def test_wheel_has_every_file_of_the_package_and_its_commit(tmp_path):
         packed = {name for name in wheel.namelist() if ".dist-info/" not in name}
         wheel.extractall(tmp_path)
     paths = {path for path in (ROOT / "src").rglob("*") if path.is_file()}
-    # Caches of Python and Numba may lie there, too.
+    # Exclude caches of Python and Numba.
     wanted = {
         str(path.relative_to(ROOT / "src"))
         for path in paths

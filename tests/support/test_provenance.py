@@ -1,4 +1,4 @@
-"""Provenance says what computed the results, with and without git."""
+"""Provenance records what computed the results, with and without git."""
 
 import json
 import os
@@ -12,7 +12,7 @@ from places import ROOT
 from maegawa2010.support.provenance import provenance
 from precursors.support.checkout import git_state
 
-# FIPS 180-4.
+# From FIPS 180-4.
 SHA256_OF_ABC = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
 
 

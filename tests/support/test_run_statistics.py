@@ -1,5 +1,4 @@
-"""Quantiles, intervals of a median and of a share, and what a difference of medians
-says."""
+"""Quantiles, and confidence intervals of medians, shares and differences of medians."""
 
 import numpy as np
 import pandas as pd
@@ -21,19 +20,19 @@ def test_the_interval_of_a_median_needs_six_values():
 
 
 def test_interval_of_a_share_starts_at_zero_without_hits():
-    """It ends where so rare a hit is missed in 2.5 % of cases."""
+    """It ends at the share that gives no hit in 2.5 % of cases."""
     assert share_interval(0, 6) == pytest.approx((0.0, 1.0 - 0.025 ** (1 / 6)))
 
 
 def test_quantiles_of_21_numbers_are_the_second_and_the_20th():
-    """0, 1, ..., 20, and one that is not known."""
+    """The numbers are 0, 1, ..., 20 and one NaN, which is ignored."""
     values = pd.Series([*np.random.default_rng(1).permutation(21), np.nan])
     expected = {"q05": 1.0, "q50": 10.0, "q95": 19.0}
     assert nine_tenths(values) == pytest.approx(expected)
 
 
 def test_interval_of_a_difference_ends_at_values_of_both():
-    """Of 0, 1, ..., 39 the 13th from either end holds the median in 97.5 % of cases."""
+    """The 13th of 40 numbers from either end bounds the median in 97.5 % of cases."""
     values = pd.Series(np.arange(40.0))
     assert median_difference(values + 100.0, values) == (100.0 - 15.0, 100.0 + 15.0)
 

@@ -1,5 +1,5 @@
-"""Tasks that are compared are timed in turns, short ones repeatedly, without collecting
-garbage."""
+"""Compared tasks are timed in turns, short ones repeatedly, and without garbage
+collection."""
 
 import contextlib
 import gc
@@ -12,7 +12,7 @@ from maegawa2010.support.timing import Seconds
 
 @pytest.fixture
 def task(clock):
-    """A task whose first call takes 1 s, and each one more than the one before."""
+    """A task whose first call takes 1 s, and each next call 1 s more."""
     calls = []
 
     def task():
@@ -33,7 +33,7 @@ def test_tasks_take_turns_after_each_is_called_twice():
 
 
 def test_short_tasks_are_repeated_within_a_round_and_averaged(task):
-    """The task takes 2 s when warm: five calls a round, 3 to 7 s, ..."""
+    """The second call takes 2 s, so a round has five calls, at first of 3 to 7 s."""
     measured = timing.measure({"task": task}, 3, 10.0)["task"]
     assert measured.rounds == [(5.0, 2.5), (10.0, 5.0), (15.0, 7.5)]
     assert measured.seconds == 10.0

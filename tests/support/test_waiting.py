@@ -31,7 +31,7 @@ def test_results_are_in_order_and_progress_is_shown(is_terminal, monkeypatch):
 def test_there_are_no_more_threads_than_tasks():
     tasks = [lambda: threading.active_count()] * 2
     before = threading.active_count()
-    # Beside the workers, a pool has three threads of its own.
+    # A pool has three threads besides its workers.
     assert max(waiting.in_threads(tasks, 1000)) <= before + len(tasks) + 3
     assert waiting.in_threads([], 1000) == []
 
