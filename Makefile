@@ -1,14 +1,14 @@
-# `make all` reproduces the paper, `make test` tests it; both build .venv first, from requirements.lock with its hashes.
-# What only tests and developers need is in requirements-dev.lock, and added when it is first asked for.
+# `make all` reproduces the paper and `make test` runs the tests. Both first build .venv from requirements.lock, with hashes.
+# Packages for tests and developers are in requirements-dev.lock and are installed when first needed.
 CORES ?= 2
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/ready
 DEV := .venv/dev
 LOCK := pyproject.toml --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header -q
-# Python keeps bytecode, whatever the user does elsewhere: every job would compile its imports again.
+# Without bytecode every job would compile its imports again.
 unexport PYTHONDONTWRITEBYTECODE
-# Caches of uv and Snakemake, which cannot do without, where the home directory cannot be written.
+# uv and Snakemake need a cache directory, even if the home directory is not writable.
 ifeq ($(XDG_CACHE_HOME)$(shell test -w "$$HOME" && echo home),)
 export XDG_CACHE_HOME := $(CURDIR)/.snakemake/cache
 endif
@@ -22,7 +22,7 @@ all: results
 test: results $(DEV)
 	$(BIN)/pytest -n $(CORES) --dist worksteal
 
-# The ensembles as jobs of a real SLURM; Error 77: there is none here, and nothing was tested.
+# Runs the ensembles as jobs of a real SLURM. Error 77 means that there is none, and that nothing was tested.
 test-cluster: $(DEV)
 	@CORES=$(CORES) tests/cluster/run
 
@@ -35,28 +35,28 @@ results: $(READY)
 check: $(READY)
 	@$(BIN)/python workflow/scripts/check_claims.py
 
-# Every figure with its caption, the rule that made it and its time, in one file for a browser.
+# All figures with captions, rules and computing times, in one file for a browser.
 report: results
 	$(BIN)/snakemake --report results/report.html --report-stylesheet workflow/report/report.css -- all
 
-# What codecheck.yml lists, made again from nothing and compared with tests/golden.
+# Makes all files of codecheck.yml again from nothing and compares them with tests/golden.
 codecheck: $(READY)
 	$(BIN)/snakemake --quiet rules host -c$(CORES) --forceall $$($(BIN)/python workflow/scripts/codecheck.py --list)
 	@$(BIN)/python workflow/scripts/codecheck.py
-	@# What is made from these files is made again too, so that `make all` has nothing left to do.
+	@# Files made from these are made again, too, so that `make all` has nothing left to do.
 	@$(BIN)/snakemake --quiet rules host -c$(CORES) all
 
 golden: results $(DEV)
 	PYTHONPATH=tests:workflow/scripts $(BIN)/python -m golden.regenerate
 
-# Pages of the interface, from the docstrings, and of docs/, in results/docs.
+# Writes docs/ and the reference from the docstrings to results/docs.
 docs: $(DEV)
 	$(BIN)/pdoc -o results/docs -d numpy precursors precursors.analysis.horizon maegawa2010.methods docs/guide.py
 
 bench: $(READY)
 	$(BIN)/python benchmarks/bench.py $(if $(filter-out undefined,$(origin METHOD)),--method "$(METHOD)")
 
-# The long studies that the article shows, TIME with nothing else running: two of them measure seconds.
+# The long studies that the article shows: half an hour with nothing else running, because two of them measure times.
 article: $(READY)
 	$(BIN)/snakemake --quiet rules host -c1 --directory full --configfile config.yaml workflow/full.yaml -- article
 
@@ -78,7 +78,7 @@ $(READY): requirements.lock
 	$(BIN)/python -m pip install -q --no-deps --require-hashes -r .venv/uv.txt
 	$(BIN)/uv pip sync -q -p $(BIN)/python --require-hashes --build-constraints requirements.lock requirements.lock
 	$(BIN)/uv pip install -q -p $(BIN)/python --offline --no-deps --no-build-isolation -e .
-	@# Compile what is not in the user's cache, on two cores.
+	@# Compile the solver and the methods if they are not in the user's cache.
 	$(BIN)/python -c "from precursors import Chain, simulate; simulate(Chain.from_slider(), 0.4)" & \
 	$(BIN)/python -c "from precursors import Chain; from maegawa2010.methods import METHODS; \
 	  from maegawa2010.studies.models.quasistatic import quasistatic_slips; chain = Chain.from_slider(); quasistatic_slips(chain); \
@@ -88,7 +88,7 @@ $(READY): requirements.lock
 	touch $(READY)
 
 $(DEV): $(READY) requirements-dev.lock
-	@# What only tests compile.
+	@# Compile the auditor, which only tests use here.
 	$(BIN)/python -c "from precursors import Chain, audit, simulate; audit(simulate(Chain.from_slider(), 0.4))" & \
 	$(BIN)/uv pip install -q -p $(BIN)/python --require-hashes --build-constraints requirements-dev.lock -r requirements-dev.lock && wait
 	touch $(DEV)

@@ -10,7 +10,7 @@ include: "workflow/common.smk"  # config.yaml, its scenes and their chains, dige
 # The paper
 include: "workflow/rules/scenes.smk"  # every transition, slips, mu_sapp, Figs. 10-13
 include: "workflow/rules/paper.smk"  # Eq. 15, claims, Fig. 9, paper.pdf, supplement.pdf
-# Studies on which claims rest, or other studies; `snakemake --list` says what each is about
+# Studies on which claims or other studies rest; `snakemake --list` describes each
 include: "workflow/studies/noise/rules.smk"
 include: "workflow/studies/printed_digits/rules.smk"
 include: "workflow/studies/resolution/rules.smk"
@@ -23,12 +23,12 @@ include: "workflow/studies/step_sweep/rules.smk"
 include: "workflow/studies/work_precision/rules.smk"
 # Tables of long studies, in a full build
 include: "workflow/rules/article.smk"
-# All of it in a browser
+# The interactive page
 include: "workflow/rules/explorer.smk"
 
 
 rule all:
-    """Everything but what is made on demand."""
+    """Everything except what is made on demand."""
     default_target: True
     input:
         RESULTS,
@@ -37,7 +37,7 @@ rule all:
 
 
 rule accuracy:
-    """Until when a run is right, and what that costs."""
+    """How long a run is accurate, how methods fail, and what accuracy costs."""
     input:
         rules.horizon.input,
         rules.failures.input,
@@ -46,4 +46,4 @@ rule accuracy:
     localrule: True
 
 
-include: "workflow/rules/provenance.smk"  # where the results come from; names that scenes may not have
+include: "workflow/rules/provenance.smk"  # where the results come from; names that scenes must not have

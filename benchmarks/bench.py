@@ -1,20 +1,20 @@
-"""The exact solver compared with heyoka.py and DOP853 in time, each with its error
-against proofs.
+"""Compare the exact solver with heyoka.py and DOP853: computing times, and errors against
+proofs.
 
     make bench                 everything, in a minute or two
     make bench METHOD=name     one method, in seconds
 
-With --quick it has a reduced size, to see that it runs.
+With --quick the sizes are reduced, to test that it runs.
 
-Ratios are what counts: all that is compared runs in turn in one process on one thread
-(see `maegawa2010.support.timing`).
+Only ratios of times are meaningful: everything that is compared runs in turn in one
+process on one thread (see `maegawa2010.support.timing`).
 """
 
 from __future__ import annotations
 
 import os
 
-# Before NumPy and Numba are imported.
+# Must be set before NumPy and Numba are imported.
 os.environ |= dict.fromkeys(
     ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"),
     "1",
@@ -60,10 +60,10 @@ from precursors.support.files import write_table
 
 ROOT = Path(__file__).resolve().parent.parent
 TABLE = ROOT / "results" / "tables" / "bench.csv"
-HEYOKA_TOLERANCE = 0.0  # its default, rounding
+HEYOKA_TOLERANCE = 0.0  # its default, machine precision
 DOP853_TOLERANCE = 1e-13
 ENSEMBLE, HEYOKA_ENSEMBLE = 2000, 100
-# A strained chain is driven so fast that it goes on slipping over its whole length.
+# The chain starts strained and is driven fast, so that all of it slips without a pause.
 LONG_CHAIN, SHORT_CHAIN, STRAIN, FAST_DRIVE = (
     200,
     10,
@@ -86,22 +86,22 @@ Row = dict[str, Any]
 
 
 def main() -> None:
-    """Measure, print the table and write it."""
+    """Measure, and print and write the table."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument(
-        "--quick", action="store_true", help="a reduced size, to see that it runs"
+        "--quick", action="store_true", help="reduce the sizes, to test that it runs"
     )
     parser.add_argument(
         "--output", type=Path, default=TABLE, help="the CSV file (%(default)s)"
     )
     parser.add_argument(
-        "--method", choices=METHODS, metavar="NAME", help="measure only this method"
+        "--method", choices=METHODS, metavar="NAME", help="measure this method only"
     )
     parser.add_argument(
         "--sessions",
         type=int,
         default=1,
-        help="how often; medians and ranges are written",
+        help="number of repetitions; medians and ranges are written",
     )
     arguments = parser.parse_args()
     if arguments.method:
@@ -140,8 +140,8 @@ def main() -> None:
 
 
 def one_method(name: str, rounds: int) -> pd.DataFrame:
-    """Measure a method, the exact solver and heyoka.py at theta = 0 to the end of the
-    first global slip."""
+    """Measure a method, the exact solver and heyoka.py for theta = 0, up to the end of
+    the first global slip."""
     truth = solution("uniform").until_global_slip()
     quick = charted_values(full=False)
     values = {
@@ -162,8 +162,7 @@ def one_method(name: str, rounds: int) -> pd.DataFrame:
 
 
 def against_heyoka(measure: Callable[..., Any]) -> Iterable[Row]:
-    """The exact solver and heyoka.py at its default tolerance, on the paper's three
-    scenes."""
+    """Compare with heyoka.py at its default tolerance, for the paper's three scenes."""
     if not find_spec("heyoka"):
         print("heyoka.py is not installed: left out", file=sys.stderr)
         return
@@ -180,8 +179,8 @@ def against_heyoka(measure: Callable[..., Any]) -> Iterable[Row]:
 
 
 def against_dop853(measure: Callable[..., Any]) -> Iterable[Row]:
-    """The exact solver and SciPy's DOP853 at its tightest, theta = 0 to the end of the
-    first global slip."""
+    """Compare with SciPy's DOP853 at a tight tolerance, for theta = 0 up to the end of
+    the first global slip."""
     solve = partial(
         solve_scipy, Chain.from_slider(), DURATION, DOP853_TOLERANCE, "global slip"
     )
@@ -195,8 +194,7 @@ def compared(
     solve: Callable[[], Result],
     measure: Callable[..., Any],
 ) -> Iterable[Row]:
-    """How many times faster the exact solver is than another, and the errors of
-    both."""
+    """Ratio of another method's time to that of the exact solver, and both errors."""
     chain, until = Chain.from_slider(theta=theta), ENDS[end]
     tasks: dict[str, Callable[[], Record]] = {
         "exact": partial(simulate, chain, DURATION, until),
@@ -215,8 +213,8 @@ def compared(
 
 
 def ensemble(measure: Callable[..., Any], quick: bool) -> Iterable[Row]:
-    """First-slip runs of theta = 0 per second, by `simulate_many` on one thread and
-    more."""
+    """Runs per second to the first global slip of theta = 0, by `simulate_many` on one or
+    more threads."""
     chains = [Chain.from_slider()] * (20 if quick else ENSEMBLE)
     threads = sorted({1, 2, untyped.config.NUMBA_DEFAULT_NUM_THREADS})
     tasks = {
@@ -236,8 +234,8 @@ def ensemble(measure: Callable[..., Any], quick: bool) -> Iterable[Row]:
 
 
 def heyoka_ensemble(measure: Callable[..., Any], quick: bool) -> Iterable[Row]:
-    """Many runs on one thread by heyoka.py, in its own ensemble mode and in turn, over
-    `simulate_many`."""
+    """Compare `simulate_many` on one thread with heyoka.py, in its ensemble mode and run
+    by run."""
     if not find_spec("heyoka"):
         return
     from heyoka_ensemble import Ensemble
@@ -265,8 +263,7 @@ def heyoka_ensemble(measure: Callable[..., Any], quick: bool) -> Iterable[Row]:
 
 
 def in_callbacks() -> Iterable[Row]:
-    """Part of the processor time of heyoka.py and CVODE in the functions that they call
-    back, a median."""
+    """Median share of the processor time of heyoka.py and CVODE in our callbacks."""
     callbacks: dict[str, list[tuple[object, str]]] = {
         "heyoka": [(events.EventMotion, "switch")],
         "cvode_adams": [(cvode_events, "rates_of"), (cvode_events, "event_functions")],
@@ -294,7 +291,7 @@ def in_callbacks() -> Iterable[Row]:
 def part_within(
     run: Callable[[], object], functions: Iterable[tuple[object, str]]
 ) -> float:
-    """Part of the time of a call that is spent in some functions."""
+    """Share of the processor time of a call that is spent in given functions."""
     within = 0.0
 
     def timed(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -316,8 +313,7 @@ def part_within(
 
 
 def long_chains(measure: Callable[..., Any]) -> Iterable[Row]:
-    """How many times as long a transition of a long chain takes as one of ten
-    blocks."""
+    """Ratio of the time of a transition of a long chain to that of a short one."""
 
     def run(n_blocks: int) -> None:
         chain = Chain.from_slider(n_blocks=n_blocks, drive_velocity=FAST_DRIVE)
@@ -349,6 +345,6 @@ def _row(measurement: str, case: str, quantity: str, unit: str, value: float) ->
 if __name__ == "__main__":
     try:
         main()
-    # A method that diverged or gave up raises a RuntimeError.
+    # A method that diverges or gives up raises a RuntimeError.
     except (RuntimeError, ValueError, OSError) as error:
         sys.exit(f"bench: {' '.join(str(error).split())}")

@@ -1,8 +1,7 @@
-"""Runs of one chain by heyoka.py's own ensemble mode: each is one call, waits included,
-without transitions.
+"""Runs of one chain in heyoka.py's ensemble mode, which copies the integrator for each
+run.
 
-Python switches the blocks, in callbacks. `ensemble_propagate_until` copies the
-integrator for each run.
+Each run is one call that includes the waits; transitions are made in Python callbacks.
 """
 
 from __future__ import annotations
@@ -18,8 +17,7 @@ from precursors.model.chain import Chain
 
 
 class Ensemble:
-    """An integrator of a chain whose callbacks know the motion of the run of their
-    thread."""
+    """An integrator of a chain whose callbacks use the motion of their thread's run."""
 
     def __init__(self, chain: Chain, duration: float) -> None:
         self.chain = chain
@@ -29,8 +27,8 @@ class Ensemble:
         self.solver = integrator_of(chain, 0.0, self.callback)
 
     def callback(self, event: int) -> Callable[[Any, int], bool]:
-        """Make the transitions of an event; say whether the run goes on, up to its
-        first global slip."""
+        """A callback that makes the transitions of an event, and returns whether the run
+        continues (up to its first global slip)."""
 
         def make_transitions(solver: Any, _direction: int) -> bool:
             solver.reset_cooldowns()
@@ -43,7 +41,7 @@ class Ensemble:
         return make_transitions
 
     def start(self, solver: Any, _number: int) -> Any:
-        """Put a copy of the integrator at rest."""
+        """Set a copy of the integrator to rest."""
         solver.time = 0.0
         solver.state[:] = solver.pars[:] = 0.0
         solver.pars.reshape(4, -1)[STICKS] = 1.0
@@ -52,7 +50,7 @@ class Ensemble:
         return solver
 
     def ends(self, n_runs: int, threads: int) -> list[float]:
-        """When each of n runs has ended its first global slip [s]."""
+        """End of the first global slip of each of n runs [s]."""
         import heyoka as hy
 
         done = hy.ensemble_propagate_until(

@@ -1,4 +1,4 @@
-"""The pages of docs/ as one, for `make docs`."""
+"""All pages of docs/ on one page, for `make docs`."""
 
 import re
 from pathlib import Path
@@ -20,5 +20,5 @@ __all__: list[str] = []
 text = "\n\n".join(
     Path(__file__).with_name(f"{page}.md").read_text(encoding="utf-8") for page in PAGES
 )
-# A link to another page stays in this one, and a link to a file begins in results/docs.
+# Links to other pages become anchors, and links to files start from results/docs.
 __doc__ = re.sub(r"\]\(\w+\.md#", "](#", text).replace("](../", "](../../")

@@ -1,5 +1,4 @@
-"""A headless Chromium, driven over its DevTools pipe: pages, and what goes wrong in
-them."""
+"""A headless Chromium, driven over its DevTools pipe."""
 
 import base64
 import fcntl
@@ -35,8 +34,8 @@ def find_browser() -> str | None:
 
 
 class Page:
-    """A page in the browser; `requests` and `complaints` tell what it asked for and
-    what went wrong in it."""
+    """A page in the browser; `requests` are the addresses that it loaded, `complaints` its
+    errors and warnings."""
 
     def __init__(self, send: int, receive: int) -> None:
         self._send = send
@@ -63,7 +62,7 @@ class Page:
         self.wait_for("document.readyState === 'complete'")
 
     def resize(self, width: int, height: int) -> None:
-        """Give the window another size."""
+        """Set the size of the window [px]."""
         size = {"width": width, "height": height}
         size |= {"deviceScaleFactor": 1, "mobile": False}
         self.call("Emulation.setDeviceMetricsOverride", **size)
@@ -100,8 +99,7 @@ class Page:
         return result["result"].get("value")
 
     def wait_for(self, expression: str) -> None:
-        """Wait until an expression is true: the page looks at it before each of its
-        frames."""
+        """Wait until an expression is true; the page checks it before each frame."""
         look = (
             f"done => {{ const look = () => ({expression}) ? done() : "
             "requestAnimationFrame(look); look() }"
@@ -113,13 +111,13 @@ class Page:
             raise
 
     def settle(self) -> None:
-        """Wait until what was asked for is drawn."""
+        """Wait until the next frame is drawn."""
         self.evaluate(
             "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
         )
 
     def picture(self, **clip: float) -> bytes:
-        """What the window shows, or a part of it, as a PNG."""
+        """The window, or a part of it, as a PNG."""
         part = {"clip": clip} if clip else {}
         data: str = self.call("Page.captureScreenshot", format="png", **part)["data"]
         return base64.b64decode(data)
@@ -178,7 +176,7 @@ def browser(path: str) -> Iterator[Page]:
         try:
             yield Page(send, receive)
         finally:
-            os.close(send)  # the browser ends when nobody can write to it
+            os.close(send)  # the browser ends when its pipe is closed
             while select.select([receive], [], [], TIMEOUT)[0] and os.read(
                 receive, 1 << 20
             ):

@@ -1,4 +1,4 @@
-"""Chains and starts that several numerical tests use."""
+"""Chains, starts and reference solutions that several numerical tests use."""
 
 import math
 
@@ -15,7 +15,7 @@ SCENES = {"uniform": "0", "trailing": "-5/6", "leading": "5/6"}
 
 
 def first_transitions(chain: Chain, most: int, **options) -> Run:
-    """The run, or its first `most` transitions."""
+    """The run, cut after `most` transitions."""
     try:
         return simulate(chain, max_transitions=most, **options)
     except TransitionLimitError as limit:
@@ -29,8 +29,8 @@ def by_plain(
     most: int = 10_000,
     **start: ArrayLike,
 ) -> tuple[np.ndarray, float]:
-    """Rows (time, interval, block, mode, load) of transitions in plain Python, and the
-    time of the end."""
+    """Rows (time, interval, block, mode, load) of transitions from the solver in plain
+    Python, and the end of the run."""
     names = ("start_positions", "start_velocities")
     at = [np.array(start.get(name, np.zeros(chain.n_blocks))) for name in names]
     state = plain.at_start(chain, *at)
@@ -39,7 +39,7 @@ def by_plain(
 
 
 def lone_slip(chain: Chain) -> tuple[float, float]:
-    """How long block 1 slides while the others rest [s], and how far [m].
+    """Duration [s] and distance [m] of a slip of block 1 while the others rest.
 
     m x'' = drop + K V t - stiffness x from rest at x = 0, drop = (mu_s - mu_k) w_1. At
     the stop the net force is the mirror image of that at the release about mu_k w_1.
@@ -52,8 +52,8 @@ def lone_slip(chain: Chain) -> tuple[float, float]:
 
 
 def matrix_of_motion(springs, mass, friction, loading_rate, modes) -> np.ndarray:
-    """Matrix of d/dt (T, v, 1): spring forces and velocities, with the blocks in their
-    modes (Eqs. 2-6)."""
+    """Matrix of d/dt (T, v, 1) for spring forces T and velocities v in given modes (Eqs.
+    2-6)."""
     n = len(springs)
     bonds = np.eye(n) - np.eye(n, k=-1)
     matrix = np.zeros((2 * n + 1, 2 * n + 1))
@@ -65,7 +65,7 @@ def matrix_of_motion(springs, mass, friction, loading_rate, modes) -> np.ndarray
 
 
 def positions_under(chain: Chain, forces) -> np.ndarray:
-    """Positions [m] in which the springs push each block with a given net force [N]."""
+    """Positions [m] in which the springs give each block a net force [N]."""
     return positions_from_compressions(
         np.linalg.solve(balance_matrix(chain), np.asarray(forces, float))
     )

@@ -1,4 +1,4 @@
-"""Where colours lie for a reader: two are told apart if they are far enough apart."""
+"""Distances of colours as readers see them, including readers with colour blindness."""
 
 import math
 from collections.abc import Mapping
@@ -9,15 +9,15 @@ from colorspacious import cspace_convert
 from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
-# In CIELAB; a step of 2 can just be seen by eyes that are trained.
-TOLD_APART = 20.0
+# Least distance in CIELAB of colours that must be distinguished; a trained eye just sees 2.
+DISTINCT = 20.0
 SIGHTS = (None, "protanomaly", "deuteranomaly")
 
 
 def in_cielab(
     colors: Mapping[str, str], sight: str | None = None
 ) -> dict[str, NDArray[np.float64]]:
-    """Places of named colours."""
+    """Positions of named colours in CIELAB, as seen by an observer."""
     seen = np.array([to_rgb(color) for color in colors.values()])
     if sight:
         space = {"name": "sRGB1+CVD", "cvd_type": sight, "severity": 100}
@@ -26,10 +26,10 @@ def in_cielab(
 
 
 def alike(colors: Mapping[str, str], sight: str | None = None) -> list[tuple[str, str]]:
-    """Names of colours that are not told apart."""
-    places = in_cielab(colors, sight)
+    """Pairs of names of colours that are too similar."""
+    positions = in_cielab(colors, sight)
     return [
         pair
-        for pair in combinations(places, 2)
-        if math.dist(*(places[name] for name in pair)) < TOLD_APART
+        for pair in combinations(positions, 2)
+        if math.dist(*(positions[name] for name in pair)) < DISTINCT
     ]

@@ -1,5 +1,4 @@
-"""What all tests share: threads as in the workflow's jobs, and a clock that only a test
-moves."""
+"""Fixtures for all tests: a clock that only the test moves, and threads as in jobs."""
 
 import os
 
@@ -11,7 +10,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as in the workflow's jobs
 
 
 class Clock:
-    """A clock that only a test moves; the processor works half of the time."""
+    """A clock that only the test moves; processor time is half of wall-clock time."""
 
     now = 1000.0
 
@@ -24,7 +23,7 @@ class Clock:
 
 @pytest.fixture
 def clock(monkeypatch) -> Clock:
-    """What `timing` takes for the time."""
+    """The clock that `timing` reads."""
     clock = Clock()
     monkeypatch.setattr(timing, "time", clock)
     return clock

@@ -1,4 +1,4 @@
-"""The words of a PDF, page by page."""
+"""The text of a PDF, page by page."""
 
 import re
 from io import BytesIO
@@ -6,13 +6,13 @@ from io import BytesIO
 from pypdf import PdfReader
 from pypdf.generic import DecodedStreamObject, NameObject
 
-# Between BT and ET a page sets text; all else, such as the many lines of a figure,
-# takes seconds to read.
+# Text is between BT and ET; to parse the rest, such as the lines of figures, would take
+# seconds.
 TEXT = re.compile(rb"\bBT\b.*?\bET\b", re.DOTALL)
 
 
 def pages_of(pdf: bytes) -> list[str]:
-    """Text of each page, on one line and without that of its figures."""
+    """Text of each page on one line, without the text of its figures."""
     texts = []
     for page in PdfReader(BytesIO(pdf)).pages:
         content = DecodedStreamObject()

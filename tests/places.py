@@ -1,4 +1,4 @@
-"""Where files lie that several tests read, and tables of the build."""
+"""Paths that several tests need, and tables of the build."""
 
 from pathlib import Path
 
@@ -11,5 +11,5 @@ CERTIFICATES = ROOT / "src/precursors/benchmark/certificates"
 
 
 def made(name: str) -> pd.DataFrame:
-    """A table that `make all` made."""
+    """A table of `make all`."""
     return pd.read_csv(RESULTS / f"tables/{name}.csv")

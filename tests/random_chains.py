@@ -1,5 +1,5 @@
-"""Random chains far from the paper's, by number: `trial(7)` is always the same chain
-and start."""
+"""Random chains far from the paper's, by number: `trial(7)` always has the same chain and
+start."""
 
 import math
 from collections.abc import Callable
@@ -17,7 +17,7 @@ SEED = 1961
 
 @dataclass(frozen=True)
 class Trial:
-    """A chain, its start and how far it is run."""
+    """A chain, its start, and the limits of its run."""
 
     chain: Chain
     duration: float
@@ -25,7 +25,7 @@ class Trial:
     most: int
 
     def run(self) -> Run:
-        """The run, or its first transitions."""
+        """The run, or its first `most` transitions."""
         return first_transitions(
             self.chain, self.most, duration=self.duration, **self.start
         )
@@ -36,8 +36,7 @@ def decades(rng: Generator, low: float, high: float) -> float:
 
 
 def any_chain(rng: Generator) -> Trial:
-    """All parameters over many decades, in any units; weights with zeros; prestressed
-    and moving starts."""
+    """Parameters over many decades; some weights zero; prestressed and moving starts."""
     n = int(rng.integers(1, 61))
     force = decades(rng, -9, 9)
     stiffness = decades(rng, -6, 12)
@@ -68,8 +67,8 @@ def any_chain(rng: Generator) -> Trial:
 
 
 def any_start(rng: Generator, chain: Chain, stiffest: float) -> dict[str, np.ndarray]:
-    """Now and then springs that push with up to 1.5 times the friction, or blocks that
-    move."""
+    """Often at rest; sometimes with springs that push with up to 1.5 times the friction,
+    or with moving blocks."""
     start: dict[str, np.ndarray] = {}
     friction = max(chain.mu_s, 0.1)
     if rng.random() < 0.4:
@@ -84,8 +83,8 @@ def any_start(rng: Generator, chain: Chain, stiffest: float) -> dict[str, np.nda
 
 
 def mild_chain(rng: Generator) -> Trial:
-    """1..12 blocks whose numbers are of one size; half of them start strained and
-    moving."""
+    """1..12 blocks with parameters of similar size; half of the chains start strained
+    and moving."""
     n = int(rng.integers(1, 13))
     mu_s = rng.uniform(0.3, 1.0)
     weights = rng.uniform(1.0, 100.0, n)
@@ -105,8 +104,8 @@ def mild_chain(rng: Generator) -> Trial:
 
 
 def even_chain(rng: Generator) -> Trial:
-    """Small whole numbers everywhere: blocks meet their limits at the same instant, or
-    touch them."""
+    """Small whole numbers as parameters, so that blocks reach their limits at the same
+    instant, or only touch them."""
     n = int(rng.integers(1, 13))
     weights = rng.integers(0, 4, n).astype(float)
     weights[rng.integers(n)] = 2.0
@@ -126,8 +125,8 @@ def even_chain(rng: Generator) -> Trial:
 
 
 def absurd_chain(rng: Generator) -> Trial:
-    """Any doubles at all: nothing that exists, but nothing that may hang or lie
-    either."""
+    """Any doubles as parameters: not physical, but the solver must neither hang nor give
+    wrong results."""
     n = int(rng.integers(1, 9))
     size = rng.choice([15.0, 50.0, 300.0])
     mass, stiffness, drive_stiffness, velocity = (
@@ -140,7 +139,7 @@ def absurd_chain(rng: Generator) -> Trial:
 
 
 def trial(number: int) -> Trial:
-    """The trial with a number: always the same."""
+    """The trial of a number, always the same."""
     rng = np.random.default_rng([SEED, number])
     kind: Callable[[Generator], Trial] = rng.choice(
         [any_chain, even_chain, absurd_chain], p=[0.8, 0.15, 0.05]
@@ -149,7 +148,7 @@ def trial(number: int) -> Trial:
 
 
 def moves_as_the_model_says(number: int) -> bool:
-    """Run and audit the chain of a trial; False if it is refused, in one line."""
+    """Run and audit the chain of a trial; False if the library refuses it in one line."""
     try:
         case = trial(number)
         run = case.run()

@@ -1,4 +1,4 @@
-"""A copy of the workflow to try things on, and Snakemake run in it."""
+"""Copies of the workflow for tests, and runs of Snakemake in them."""
 
 import importlib
 import multiprocessing
@@ -17,8 +17,8 @@ from places import ROOT
 
 from maegawa2010.support.digest import digest_code
 
-# Imports and the search for plugins, once instead of in every run of Snakemake, which
-# is a fork of this one.
+# Each run of Snakemake is a fork of this process: imports and the search for plugins are
+# made once.
 for module in (
     "jsonschema",
     "nbformat",
@@ -34,27 +34,26 @@ snakemake.cli.get_argument_parser()
 
 @dataclass(frozen=True)
 class Outcome:
-    """What Snakemake returned and printed."""
+    """Exit code and output of Snakemake."""
 
     code: int
     text: str
 
     @property
     def plan(self) -> list[tuple[str, set[str]]]:
-        """Jobs that were run or would be, such as "simulate_scene fig10", with their
-        outputs."""
-        found = []
+        """Jobs that ran or would run, such as "simulate_scene fig10", with their outputs."""
+        jobs = []
         for block in re.split(r"\n(?=(?:local)?rule \w+:)", self.text):
             if rule := re.match(r"(?:local)?rule (\w+):", block):
                 scene = re.search(r"wildcards: scene=(\S+)", block)
                 outputs = re.search(r"\n    output: (.+)", block)
                 job = f"{rule[1]} {scene[1]}" if scene else rule[1]
-                found.append((job, set(outputs[1].split(", ")) if outputs else set()))
-        return found
+                jobs.append((job, set(outputs[1].split(", ")) if outputs else set()))
+        return jobs
 
     @property
     def jobs(self) -> set[str]:
-        """The jobs, without the two that come after whatever is run."""
+        """The jobs, without the two that follow any other job."""
         return {job for job, _ in self.plan} - {"all", "write_provenance"}
 
     @property
@@ -65,7 +64,7 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Workspace:
-    """A directory with a copy of the workflow, and where its library is installed."""
+    """A directory with a copy of the workflow, and the path of its library."""
 
     path: Path
     library: str = "src"
@@ -83,8 +82,7 @@ class Workspace:
         return Outcome(process.exitcode, output.read_text(encoding="utf-8"))
 
     def pretend(self, *targets: str) -> Outcome:
-        """Make what is missing of the targets, with the name of its rule as its
-        content."""
+        """Write missing outputs with the name of their rule as content."""
         for job, outputs in self.run("-n", *targets).plan:
             for name in outputs:
                 (self.path / name).parent.mkdir(parents=True, exist_ok=True)
@@ -98,21 +96,20 @@ class Workspace:
         return outcome.jobs
 
     def edit(self, name: str, old: str, new: str) -> None:
-        """Replace a text that stands in a file exactly once, or add one to its end if
-        there is no old one."""
+        """Replace a text that occurs in a file exactly once; an empty one appends."""
         file = self.path / name
         text = file.read_text(encoding="utf-8")
         assert not old or text.count(old) == 1, (
-            f"{old!r} stands {text.count(old)} times in {name}"
+            f"{old!r} occurs {text.count(old)} times in {name}"
         )
         file.write_text(text.replace(old, new) if old else text + new, encoding="utf-8")
 
     def add_scenes(self, scenes: str) -> None:
-        """Add scenes to the configuration, as they are written there."""
+        """Add scenes to the configuration, given in YAML."""
         self.edit("config.yaml", "\nfig13: [", f"{scenes}\nfig13: [")
 
     def results(self) -> dict[str, tuple[int, bytes]]:
-        """Time of change and content of every file in results."""
+        """Modification time and content of every file in results."""
         files = filter(Path.is_file, (self.path / "results").rglob("*"))
         return {
             str(file.relative_to(self.path)): (
@@ -125,8 +122,8 @@ class Workspace:
 
 @cache
 def parse_the_code() -> None:
-    """Read all modules once instead of in every run of Snakemake, which then knows the
-    syntax trees of those that a test leaves as they are."""
+    """Parse all modules once: runs of Snakemake then have the syntax trees of unchanged
+    ones in their caches."""
     for script in (ROOT / "workflow").rglob("*.py"):
         digest_code(ROOT, script.stem)
 
@@ -143,7 +140,7 @@ def _run_snakemake(
         sys.stdout = sys.stderr = os.fdopen(1, "w", buffering=1, encoding="utf-8")
         # Snakemake leaves a temporary directory for Python to remove, which warns.
         warnings.simplefilter("ignore", ResourceWarning)
-        if "--touch" in arguments:  # of which Snakemake waits 0.1 s a job
+        if "--touch" in arguments:  # Snakemake would wait 0.1 s per job
             time.sleep = lambda seconds: None
         snakemake.cli.main(list(arguments))
 

@@ -19,17 +19,17 @@ from maegawa2010.scenes import (
 from maegawa2010.support.digest import digest_code
 from precursors.model.chain import parse_theta
 
-# As seen from the working directory; `workflow.basedir` would be another workflow's that uses this one as a module.
+# Relative to the working directory. `workflow.basedir` is another directory if a workflow uses this one as a module.
 ROOT = Path(os.path.relpath(workflow.current_basedir.get_path_or_uri(secret_free=True))).parent
 PAPERS = ROOT / "src/maegawa2010"
 PROOFS = ROOT / "src/precursors/benchmark/certificates"  # committed
-COMMITTED = ROOT / "paper/tables"  # of long studies of the paper's slider: `article` makes them
-# What a script computes: its rule has it as a parameter, and its jobs run again when it changes.
+COMMITTED = ROOT / "paper/tables"  # results of long studies of the paper's slider: `article` makes them
+# Each rule takes a checksum of its script and all imported code as a parameter, so that its jobs run again if code changes.
 digest = partial(digest_code, ROOT)
 
 files = [] if workflow.modifier.skip_configfile else ["config.yaml", *workflow.overwrite_configfiles]
 try:
-    # Before Snakemake, which would run code in them, or take hours for nested aliases.
+    # Snakemake reads these files, too, but does not report where one is wrong.
     contents = {path: read_file(path) for path in filter(os.path.exists, files)}
 except ValueError as error:
     raise WorkflowError(str(error)) from None
@@ -45,9 +45,9 @@ except ValueError as error:
     raise WorkflowError(str(error)) from None
 if not os.access("results" if os.path.exists("results") else ".", os.W_OK | os.X_OK):
     raise WorkflowError("results must be a directory that can be written to")
-os.environ.setdefault("NUMBA_NUM_THREADS", "1")  # of a job, as its `threads`
-if os.path.exists(sys.executable):  # and not yet in quotes
-    sys.executable = shlex.quote(sys.executable)  # Snakemake's commands have it as it is
+os.environ.setdefault("NUMBA_NUM_THREADS", "1")  # a job has one thread
+if os.path.exists(sys.executable):  # false once it is quoted
+    sys.executable = shlex.quote(sys.executable)  # Snakemake does not quote it in commands
 
 SCENES = list(config["scenes"])
 FIG13 = config["fig13"]
@@ -62,9 +62,9 @@ LONG_SETTINGS = long_settings(ROOT / "workflow")  # with which they were made
 PUBLISHED = {}  # rule and seed of each of these tables, in a full build
 RUNS = collect("results/runs/{scene}.h5", scene=FIG13)
 SLIPS = collect("results/tables/{scene}_slips.csv", scene=FIG13)
-# What `all` makes: each file of rules adds its own.
+# Targets of `all`. Each file of rules adds its own, so `all` and write_provenance must come after the includes.
 RESULTS = []
-# Jobs into which each study of many runs is divided.
+# Each study of many runs is divided into this many jobs.
 CHUNKS = [f"{i}of{config['chunks']}" for i in range(1, config["chunks"] + 1)]
 
 

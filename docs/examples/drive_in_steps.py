@@ -1,4 +1,6 @@
-"""A drive that changes its speed in steps: runs one after another.
+"""Change the speed of the drive in steps, with one run for each speed.
+
+Normal loads change in the same way: give `replace` new `weights`.
 
 Prints:
     0.0001 m/s: 90 transitions, then F_X = 142.578 N
@@ -15,7 +17,7 @@ start = {}
 for speed, duration in ((1e-4, 2.0), (1e-3, 0.1), (1e-4, 1.0)):  # m/s, s
     run = simulate(replace(chain, drive_velocity=speed), duration, **start)
     positions, velocities = run.at([duration])
-    # The drive is at 0 when a run begins: the chain is moved with it.
+    # The drive is at 0 when a run begins, so the chain is shifted with it.
     start = {
         "start_positions": positions[0] - speed * duration,
         "start_velocities": velocities[0],

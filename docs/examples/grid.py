@@ -1,7 +1,7 @@
-"""mu_sapp over two parameters, in parts that survive Ctrl-C.
+"""Map mu_sapp over two parameters, and resume after an interruption.
 
-One row of the map is one file, and `write_table` writes a file whole or not at all: after Ctrl-C or a
-power cut, the same script goes on with the rows that are missing.
+Each row of the map is saved in a file of its own, which `write_table` writes completely or not at all.
+After Ctrl-C or a power cut, run the script again: it computes only the missing rows.
 
 Prints:
     (15, 41) mu_sapp from 0.255 to 0.674

@@ -1,4 +1,4 @@
-"""An ensemble on all cores: noise of 0.1 % in every normal load.
+"""Run an ensemble on all cores, with 0.1 % of noise in every normal load.
 
 Prints:
     median mu_sapp = 0.484
@@ -16,5 +16,5 @@ chains = [
     replace(chain, weights=chain.weights * random.uniform(0.999, 1.001, 10))
     for _ in range(1000)
 ]
-runs = simulate_many(chains, until="global slip")  # a Run for each chain
+runs = simulate_many(chains, until="global slip")  # one Run per chain
 print(f"median mu_sapp = {np.median(summarise(runs)['mu_sapp']):.3f}")

@@ -1,8 +1,8 @@
-"""Score a solver of my own on a problem whose transitions are proved.
+"""Score your own solver on a problem whose transitions are proved.
 
-SciPy's DOP853 solves the problem `uniform` from the equations of docs/benchmark.md. SciPy
-sees an event only if its function has another sign after a step than before it. So a
-tight tolerance is not enough: the steps must be short.
+SciPy's DOP853 solves the problem `uniform`, with the equations of docs/benchmark.md. SciPy detects an
+event only if the sign of its function changes from one step to the next. A tight tolerance is therefore
+not enough: the steps must be short.
 
 Prints:
     steps of any length: 953 of 1428 right, then missed: block 4 to mode 1 at 7.03910579118 s
@@ -22,16 +22,16 @@ MASS = 0.012 / N
 SPEED = 1e-4
 SPRINGS = np.array([0.8e6] + [N * 2.5e6] * (N - 1))
 WEIGHTS = np.full(N, 400.0 / N)
-LOADING = SPRINGS[0] * SPEED  # growth of the force on block 1 while all stick [N/s]
+LOADING = SPRINGS[0] * SPEED  # rate of the force on block 1 at rest [N/s]
 
 
 def net_forces(state):
-    """Forces n_i on the blocks; a state is the forces T_i, then the velocities v_i."""
+    """Net spring forces n_i; a state holds the spring forces T_i, then the velocities v_i."""
     return state[:N] - np.append(state[1:N], 0.0)
 
 
 def rates(_, state, mode):
-    """Derivatives of the state, where a block that sticks has no acceleration."""
+    """Derivatives of the state; a sticking block has no acceleration."""
     velocity = state[N:]
     behind = np.append(SPEED, velocity[:-1])
     acceleration = (net_forces(state) - mode * MU_K * WEIGHTS) / MASS
@@ -39,7 +39,7 @@ def rates(_, state, mode):
 
 
 def event(block):
-    """A function that falls to zero at the next transition of a block."""
+    """Return a function that falls to zero at the next transition of a block."""
 
     def function(_, state, mode):
         if mode[block]:
@@ -52,14 +52,14 @@ def event(block):
 
 
 def solve(longest_step):
-    """List time, block, mode and tangential load of all transitions."""
+    """Return the time, block, mode and tangential load of each transition."""
     state, mode, time = np.zeros(2 * N), np.zeros(N), 0.0
     events = [event(block) for block in range(N)]
-    how = {"args": (mode,), "events": events, "max_step": longest_step, **ACCURACY}
+    options = {"args": (mode,), "events": events, "max_step": longest_step, **ACCURACY}
     rows = []
     while True:
         if mode.any():
-            step = solve_ivp(rates, (time, DURATION), state, "DOP853", **how)
+            step = solve_ivp(rates, (time, DURATION), state, "DOP853", **options)
             state, time = step.y[:, -1], step.t[-1]
             changed = [block for block in range(N) if len(step.t_events[block])]
         else:
@@ -82,6 +82,6 @@ for steps, longest in {"of any length": np.inf, "of at most 0.5 us": 5e-7}.items
         writer = csv.writer(file)
         writer.writerow(["time_s", "block", "mode", "tangential_load_N"])
         writer.writerows(solve(longest))
-    found = score("mine.csv", "uniform")
-    right = f"{found['transitions_right']} of {found['transitions_true']} right"
-    print(f"steps {steps}: {right}, then missed: {found['should_be']}")
+    result = score("mine.csv", "uniform")
+    right = f"{result['transitions_right']} of {result['transitions_true']} right"
+    print(f"steps {steps}: {right}, then missed: {result['should_be']}")

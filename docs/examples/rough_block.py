@@ -1,6 +1,6 @@
-"""More friction at one block: friction is mu w, so a larger weight stands for it.
+"""Increase the friction of one block: friction is mu w, so increase its weight.
 
-`run.chain.normal_load` is no longer F_Z then, and mu_sapp is the largest F_X over the true one.
+The weights then add up to more than F_Z, so mu_sapp is the largest F_X divided by the original normal load.
 
 Prints:
     mu_sapp = 0.463

@@ -1,6 +1,6 @@
-"""How does the drop from static to kinetic friction change the precursors?
+"""Study how the drop from static to kinetic friction changes the precursors.
 
-A run for each of 15 values of mu_k, with everything else as in the paper.
+There is one run for each of 15 values of mu_k; everything else is as in the paper.
 
 Prints:
      mu_k  events_counted  mu_sapp  global_slip_s

@@ -1,3 +1,3 @@
-"""Maegawa, Suzuki and Nakano (2010) with the library `precursors`: scenes, readings, claims,
-Figs. 10-13, and the studies about them.
+"""Reproduction of Maegawa, Suzuki and Nakano (2010) with the library `precursors`: the
+paper's scenes, Figs. 10-13 and claims, our readings of its words, and further studies.
 """

@@ -1,14 +1,14 @@
-"""The configuration of the workflow: its files, put together and checked. The first
-thing wrong with it is said in one line."""
+"""Merge and check the files of the workflow's configuration.
 
-import math
+An error message has one line: which value, in which file, and what it must be.
+"""
+
 import os
-import re
 from collections import ChainMap
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from copy import deepcopy
-from itertools import chain
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
@@ -21,91 +21,62 @@ from maegawa2010.scenes import Config, scene_slider, scenes_with_theta
 from precursors.model.chain import Chain
 from precursors.support.files import AnyPath, read_bytes
 
-SECTIONS = (
-    "chain",
-    "load_cells",
-    "duration",
-    "scenes",
-    "fig13",
-    "figure",
-    "figure_formats",
-)
-# YAML reads 010 as 8, 0x10 as 16, 1_0 as 10, and 1:30 as 90; .nan and .inf are no number
-# to compute with.
-NOT_PLAIN = re.compile(
-    r"[-+]?(0[\d_]+|0x[\da-f_]+|0b[01_]+|\d[\d.]*_[\d_.]*(e[-+]?\d+)?"
-    r"|\d[\d_]*(:[0-5]?\d)+(\.[\d_]*)?|\.(inf|nan))",
-    re.IGNORECASE,
-)
-MOST_VALUES = 100_000  # in a file, those of aliases and merges written out
-# Python's numbers that YAML reads as text.
-TEXT_TO_YAML = re.compile(r"[-+]?(\d+|(\d*\.\d+|\d+\.)(?=e\d))e[-+]?\d+", re.IGNORECASE)
+TEXT = "tag:yaml.org,2002:str"
+# Least similarity (as `difflib` measures it) at which another name is suggested.
+SIMILARITY = 0.7
 
 
 class Loader(yaml.CSafeLoader):
-    """Reads each key once, no value that YAML takes for another, and no file whose
-    aliases make it endless."""
-
-    def construct_document(self, node: yaml.Node) -> Any:
-        """Return what a file has."""
-        if _size(node, {}) > MOST_VALUES:
-            raise _misread(node, "aliases (*) and merges (<<) are nested too deep")
-        return super().construct_document(node)
+    """A YAML loader that refuses repeated keys and numbers that YAML reads as text."""
 
     def construct_mapping(
         self, node: yaml.MappingNode, deep: bool = False
     ) -> dict[Any, Any]:
-        """Return a table, in which no key stands twice."""
-        known: list[object] = []
-        for key, _ in node.value:
-            if key.value in known:
+        """Return a table; a repeated key is refused."""
+        keys = [key.value for key, _ in node.value]
+        for i, (key, _) in enumerate(node.value):
+            if key.value in keys[:i]:
                 raise _misread(key, f"the key {key.value!r} stands there twice")
-            known.append(key.value)
         return super().construct_mapping(node, deep)
 
     def construct_scalar(self, node: Any) -> Any:
-        """Return a value that is plain, or in quotes."""
-        if not node.style and TEXT_TO_YAML.fullmatch(node.value):
+        """Return a value; 2.5e9 is refused, because YAML reads it as text."""
+        if node.tag == TEXT and not node.style and _as_number(node.value) != node.value:
             remedy = "write a number as 2.5e+9 and not as 2.5e9, or a text in quotes"
             raise _misread(node, f"{node.value} is text to YAML: {remedy}")
-        if not node.style and NOT_PLAIN.fullmatch(node.value):
-            remedy = "write a decimal number, or a text in quotes"
-            raise _misread(node, f"{node.value} is not plain: {remedy}")
         return super().construct_scalar(node)
-
-
-def _size(node: yaml.Node, known: dict[int, float]) -> float:
-    """Number of values in a node with its aliases written out."""
-    if id(node) not in known:
-        known[id(node)] = math.inf  # of a node within itself
-        inside = node.value if isinstance(node, yaml.CollectionNode) else []
-        nodes = chain.from_iterable(x if isinstance(x, tuple) else [x] for x in inside)
-        known[id(node)] = 1 + sum(_size(value, known) for value in nodes)
-    return known[id(node)]
 
 
 def _misread(node: Any, problem: str) -> yaml.MarkedYAMLError:
     return yaml.MarkedYAMLError(problem=problem, problem_mark=node.start_mark)
 
 
+def _as_number(value: Any) -> Any:
+    """The number that a text stands for, or the value unchanged."""
+    for kind in (int, float) if isinstance(value, str) else ():
+        with suppress(ValueError):
+            return kind(value)
+    return value
+
+
 def load_config(
     given: Config, files: Mapping[str, Config], workflow: Path
 ) -> dict[str, Any]:
-    """Put a configuration together, and check it.
+    """Merge a configuration with the default settings, and check it.
 
     Parameters
     ----------
     given
-        What Snakemake has read, the command line included.
+        The configuration as Snakemake read it, including the command line.
     files
-        The contents of the files that it was read from, the most important one last.
+        The contents of its files by path; a later file overrides an earlier one.
     workflow
-        Directory of the settings, which have what is not given, and of the schemas.
+        Directory with the default settings and the schemas.
 
     Raises
     ------
     ValueError
-        In one line: which value, where, and what it must be.
+        If a value is wrong: one line that says which, where, and what it must be.
     """
     settings = read_settings(workflow)
     defaults = dict(ChainMap(*settings.values()))
@@ -113,22 +84,17 @@ def load_config(
     config = deepcopy(dict(given))
     for path, content in reversed(contents.items()):
         place_weights(config, path, content)
-    if "chain" in config:
-        config["chain"] = read_numbers(config["chain"])
-    check_sections(config, defaults)
+    if isinstance(chain := config.get("chain"), dict):
+        # --config chain='{mu_k: 0.46}' has numbers as text.
+        config["chain"] = {name: _as_number(value) for name, value in chain.items()}
     complete = deepcopy(defaults)
     update_config(complete, config)
-    check_config(complete, workflow / "config.schema.yaml", contents)
-    if complete["figure"]:
-        from precursors.figures.style import Look  # slow
-
-        Look(**complete["figure"])
+    check_config(complete, defaults, workflow / "config.schema.yaml", contents)
     return complete
 
 
 def read_settings(workflow: Path) -> dict[str, dict[str, Any]]:
-    """What the settings of all studies, and those of each, give a configuration, by
-    file."""
+    """Default settings by file: those that all studies share, and those of each study."""
     shared = workflow / "settings.yaml"
     of_studies = sorted(workflow.glob("studies/*/settings.yaml"))
     return {str(shared): read_file(shared)} | {
@@ -144,134 +110,134 @@ def long_settings(workflow: Path) -> dict[str, Any]:
 
 
 def read_file(path: AnyPath) -> dict[str, Any]:
-    """Read a YAML file; refuse one that cannot be read, has a key twice, or a number
-    that YAML reads as another.
+    """Read a YAML file.
 
-    The ValueError says in one line which file, where in it, and what is wrong.
+    Raises
+    ------
+    ValueError
+        In one line: which file, where in it, and what is wrong.
     """
     try:
         config = yaml.load(read_bytes(path).decode(), Loader)
     except yaml.MarkedYAMLError as error:
         mark: Any = error.problem_mark
         place = f"in line {mark.line + 1}, column {mark.column + 1}"
-        raise ValueError(_short(f"{path}: {error.problem} {place}")) from None
+        raise _refusal(path, f"{error.problem} {place}") from None
     except (yaml.YAMLError, ValueError, OSError) as error:
-        raise ValueError(_short(f"{path}: {error}")) from None
+        raise _refusal(path, error) from None
     if not isinstance(config, dict):
-        raise ValueError(f"{path} must be a table of keys and values")
-    if "__use_yte__" in config:
-        raise ValueError(f"{path}: __use_yte__: write values, not code that makes them")
+        raise _refusal(path, "it must be a table of keys and values")
     return config
 
 
 def place_weights(config: dict[str, Any], path: AnyPath, content: Config) -> None:
-    """Files of normal loads lie beside the file that names them, whose content is
-    given."""
-    # What is no scene is refused by the schema.
+    """Make the paths of files of normal loads relative to the configuration file that
+    names them.
+
+    `content` is the content of that file, `path` its path.
+    """
+    # The schema refuses malformed scenes later.
     with suppress(AttributeError, LookupError, TypeError):
         for name, scene in content["scenes"].items():
             file = scene.get("weights")
             merged = config["scenes"][name]
-            # Unless another file or the command line names another one.
+            # Another file or the command line may override this one.
             if isinstance(file, str) and merged["weights"] == file:
                 beside = os.path.join(os.path.dirname(path) or os.curdir, file)
                 merged["weights"] = beside
 
 
-def read_numbers(values: Any) -> Any:
-    """Numbers of a section, also given as text, as by --config chain='{mu_k: 0.46}'."""
-    if not isinstance(values, dict):
-        return values
-
-    def read(value: Any) -> Any:
-        for kind in (int, float) if isinstance(value, str) else ():
-            with suppress(ValueError):
-                return kind(value)
-        return value
-
-    return {name: read(value) for name, value in values.items()}
-
-
 def check_config(
     config: Config,
+    studies: Config,
     schema_path: AnyPath,
     files: Mapping[str, Config] | None = None,
 ) -> None:
-    """Refuse a configuration, as YAML gives it, that the workflow cannot run.
+    """Refuse a configuration that the workflow cannot run.
 
-    The ValueError says in one line which value, where, and what it must be. `files` are
-    the contents of the files from which the configuration was put together, the most
-    important one last. The JSON schema is YAML, too.
+    Parameters
+    ----------
+    config
+        The merged configuration, as YAML gives it.
+    studies
+        Default settings of all studies by section.
+    schema_path
+        The JSON schema, written in YAML.
+    files
+        The contents of the merged files by path; a later file overrides an earlier one.
+
+    Raises
+    ------
+    ValueError
+        In one line: which value, where, and what it must be.
     """
     schema = read_file(schema_path)
     for path in Path(schema_path).parent.glob("studies/*/schema.yaml"):
         section = path.parent.name
         if section in config:
             schema["properties"][section] = read_file(path)
+    _add_keys(schema, studies)
+    errors = [*Draft202012Validator(schema).iter_errors(config)]
+    unknown = [error for error in errors if error.validator == "additionalProperties"]
+    if error := best_match(unknown or errors):
+        raise _refusal(*_file_and_problem(error, files or {}))
     try:
-        error = best_match(Draft202012Validator(schema).iter_errors(config))
-        if error is None:
-            _check_chains(config)
-            _check_case(config["scenes"])
-            check_names("fig13", config["fig13"], scenes_with_theta(config))
-            return
+        _check_chains(config)
+        check_names("fig13", config["fig13"], scenes_with_theta(config))
+        if config["figure"]:
+            from precursors.figures.style import Look  # slow
+
+            Look(**config["figure"])
     except ValueError as problem:
-        raise ValueError(_short(f"configuration: {problem}")) from None
+        raise _refusal("configuration", problem) from None
+
+
+def _add_keys(schema: dict[str, Any], studies: Config) -> None:
+    """Add the sections of studies and their keys to the schema, which refuses others."""
+    for name, section in studies.items():
+        known = schema["properties"].setdefault(name, {})
+        if isinstance(section, dict):
+            keys = dict.fromkeys(section, True) | known.get("properties", {})
+            known |= {"type": "object", "properties": keys}
+            known["additionalProperties"] = False
+
+
+def _file_and_problem(error: Any, files: Mapping[str, Config]) -> tuple[str, str]:
+    """The file with the value that the schema refuses, and what is wrong with it."""
     where = error.json_path.removeprefix("$").lstrip(".") or "top level"
+    place = [*error.absolute_path]
+    value = error.instance
+    if error.validator == "additionalProperties":
+        known = error.schema["properties"]
+        key = next(key for key in value if key not in known)
+        file = _file_with([*place, key], value[key], files)
+        return file, f"{where} has no key {key!r}: {suggestion(key, known)}"
     message = error.message
     if "description" in error.schema:
-        is_table = isinstance(error.instance, dict)
-        given = list(error.instance) if is_table else error.instance
+        given = list(value) if isinstance(value, dict) else value
         message = f"{given!r} must {error.schema['description']}"
-    message += _hint(error.instance)
-    file = _file_with([*error.absolute_path], error.instance, files or {})
-    raise ValueError(_short(f"{file}: {where}: {message}"))
-
-
-def check_sections(config: Config, studies: Config) -> None:
-    """Refuse a section, or a key of one, that neither the workflow nor a study has;
-    `studies` has all sections of studies.
-
-    The ValueError is one line.
-    """
-    for name, section in config.items():
-        check_names("configuration:", [name], [*SECTIONS, *studies])
-        known = studies.get(name)
-        if isinstance(section, dict) and isinstance(known, dict):
-            check_names(f"configuration: {name}", section, known)
-
-
-def _hint(value: object) -> str:
-    """How to write a number that is given as a text."""
-    with suppress(ValueError):
-        if isinstance(value, str) and math.isfinite(float(value)):
-            return (
-                ": this is text; write a number as 2.5e+9 and not as 2.5e9 or in quotes "
-                "(within braces, --config has numbers as text)"
-            )
-    return ""
+    return _file_with(place, value, files), f"{where}: {message}"
 
 
 def _file_with(path: list[Any], value: Any, files: Mapping[str, Config]) -> str:
-    """The most important file that has the value at the path."""
-    found = "configuration"
+    """The last file that has this value at this path of keys."""
+    last = "configuration"
     for file, content in files.items():
         there: Any = content
         with suppress(LookupError, TypeError):
             for key in path:
                 there = there[key]
-            found = file if there == value else found
-    return found
+            last = file if there == value else last
+    return last
 
 
-def _short(message: str) -> str:
-    """A message in one line, without the middle of long words and numbers."""
-    cut = re.sub(r"(\S{80})\S{20,}", r"\1...", message)
-    return " ".join(cut.split())
+def _refusal(where: AnyPath, problem: object) -> ValueError:
+    """An error whose message has one line."""
+    return ValueError(f"{where}: {' '.join(str(problem).split())}")
 
 
 def _check_chains(config: Config) -> None:
-    """Make every chain of the configuration; its own errors say what is wrong."""
+    """Make every chain of the configuration, to check its values."""
     where = "chain"
     try:
         Chain.from_slider(**config["chain"])
@@ -284,19 +250,18 @@ def _check_chains(config: Config) -> None:
         raise ValueError(f"{where}: {error}") from None
 
 
-def _check_case(scenes: Iterable[str]) -> None:
-    """Refuse two scenes whose files have one name where case does not count."""
-    known: dict[str, str] = {}
-    for name in scenes:
-        other = known.setdefault(name.casefold(), name)
-        if other != name:
-            raise ValueError(f"scenes.{name} and {other} differ by case alone")
-
-
 def check_names(where: str, names: Iterable[str], known: Iterable[str]) -> None:
-    """Refuse a name of nothing."""
+    """Refuse an unknown name."""
+    known = [*known]
     for name in names:
         if name not in known:
-            raise ValueError(
-                f"{where} holds {name!r}, but must hold names of {', '.join(known)}"
-            )
+            raise ValueError(f"{where} has {name!r}: {suggestion(name, known)}")
+
+
+def suggestion(name: object, known: Iterable[str]) -> str:
+    """Suggest the known name that is most similar to an unknown one, or list all."""
+    known = [*known]
+    like = get_close_matches(str(name), known, 1, SIMILARITY)
+    if like:
+        return f"did you mean {like[0]!r}?"
+    return f"it must be one of {', '.join(known)}"

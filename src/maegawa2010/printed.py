@@ -1,22 +1,22 @@
-"""Numbers that the paper prints."""
+"""Numbers printed in the paper."""
 
-# Of all simulations and experiments.
+# The same for all simulations and experiments.
 MU_SAPP = 0.49
-# A unit of its last digit: the paper says that mu_sapp "appears to have" this value.
+# One unit of its last digit; the paper says that mu_sapp "appears to have" this value.
 LAST_DIGIT = 0.01
-# Of each scene: the events are those counted in Fig. 13 (Sect. 5.2).
+# By scene; the events are those counted in Fig. 13 (Sect. 5.2).
 SCENES = {
     "fig10": {"events_counted": 9, "mu_sapp": MU_SAPP},
     "fig11": {"events_counted": 6, "mu_sapp": MU_SAPP},
     "fig12": {"events_counted": 14, "mu_sapp": MU_SAPP},
 }
-# Events of the experiment (Sect. 3.2.2), which is never fitted, by the sign of theta:
-# -1 for the larger load at the trailing edge.
+# Events of the experiment (Sect. 3.2.2) by the sign of theta: -1 for the larger load at
+# the trailing edge. We never fit the experiment.
 EVENTS_OF_EXPERIMENT = {-1: 11, 0: 19, 1: 27}
-# Uniform loading (Sect. 3.2.1): F_X at the first global slip, and how long a global
-# slip lasts.
+# Uniform loading (Sect. 3.2.1): F_X at the first global slip, and the duration of a
+# global slip.
 FIRST_GLOBAL_SLIP_N = 200.0
 SLIP_DURATION_S = 0.002
-# Fig. 7: F_ZA and F_ZB at theta = 5/6, and how far the two load cells are apart.
+# Fig. 7: F_ZA and F_ZB at theta = 5/6, and the distance between the two load cells.
 CELL_LOADS_N = (100.0, 300.0)
 CELL_SPACING_M = 0.06

@@ -1,4 +1,4 @@
-"""The scenes of a configuration, and the chain that each of them stands for."""
+"""The scenes of a configuration, and the chain of each scene."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -12,17 +12,18 @@ Config = Mapping[str, Any]
 
 
 def scenes_with_theta(config: Config) -> list[str]:
-    """Names of the scenes whose normal load changes linearly along the slider."""
+    """Names of the scenes whose normal load varies linearly along the slider."""
     return [name for name, scene in config["scenes"].items() if "weights" not in scene]
 
 
 def scene_duration(config: Config, name: str) -> float:
-    """Time that the scene is simulated for [s]."""
+    """Simulated time of a scene [s]."""
     return float(config["scenes"][name].get("duration", config["duration"]))
 
 
 def is_papers(config: Config, scenes: Sequence[str]) -> bool:
-    """Whether Fig. 13 has the paper's slider in these scenes, in the order of theta."""
+    """Whether these scenes, in the order of theta, are in Fig. 13 and have the paper's
+    values."""
     return all(
         scene in config["fig13"]
         and {"weights": None} | scene_slider(config, scene) == SLIDER | {"theta": theta}
@@ -31,8 +32,8 @@ def is_papers(config: Config, scenes: Sequence[str]) -> bool:
 
 
 def scene_label(config: Config, name: str) -> dict[str, str]:
-    """Name and title of a scene for the report, without the braces that Snakemake takes
-    for wildcards."""
+    """Name and title of a scene for the report; Snakemake would take braces for
+    wildcards."""
     title = config["scenes"][name]["title"].replace("{", "(").replace("}", ")")
     return {"figure": f"{name}: {title}"}
 
@@ -40,7 +41,7 @@ def scene_label(config: Config, name: str) -> dict[str, str]:
 def scene_slider(config: Config, name: str) -> dict[str, Any]:
     """Arguments of `Chain.from_slider` for a scene; theta and F_Z are rounded once.
 
-    Of measured normal loads [N], a list or a file, there is no theta.
+    With measured normal loads [N], from a list or a file, theta is NaN.
     """
     slider = scene_as_written(config, name)
     if "weights" not in slider:
@@ -60,8 +61,8 @@ def scene_slider(config: Config, name: str) -> dict[str, Any]:
 
 
 def scene_as_written(config: Config, name: str) -> dict[str, Any]:
-    """Arguments for a scene before any rounding: theta and F_Z = F_ZA + F_ZB of load
-    cells are fractions."""
+    """Arguments for a scene before any rounding: theta and F_Z = F_ZA + F_ZB from load
+    cells are exact fractions."""
     scene = config["scenes"][name]
     slider = {key: scene.get(key, value) for key, value in config["chain"].items()}
     if "load_cell_a" not in scene:

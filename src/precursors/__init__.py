@@ -1,10 +1,11 @@
-"""Stick-slip chains solved exactly: precursors of global slip after Maegawa, Suzuki and
-Nakano (2010).
+"""Simulate stick-slip chains exactly, and analyse the precursors of global slip
+(Maegawa, Suzuki and Nakano 2010).
 
-This is the library, for any chain; the package `maegawa2010` reproduces the paper with it.
+This library works for any chain. The package `maegawa2010` reproduces the paper with
+it.
 
     >>> from precursors import Chain, apparent_friction, find_slips, plot, simulate
-    >>> run = simulate(Chain.from_slider(theta="-5/6"))  # else as in the paper
+    >>> run = simulate(Chain.from_slider(theta="-5/6"))  # other values as in the paper
     >>> round(apparent_friction(run), 4)
     0.4845
     >>> len(find_slips(run))
@@ -16,7 +17,7 @@ from importlib import import_module
 from importlib.metadata import version
 from typing import TYPE_CHECKING
 
-from precursors.audit import audit  # at once, or the room would take its name
+from precursors.audit import audit  # not lazily: the package has the same name
 
 if TYPE_CHECKING:
     from precursors.analysis.load_curve import load_curve
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 
     __version__: str
 
-# Written out for type checkers and editors.
+# A literal list, which type checkers and editors can read.
 __all__ = [
     "Chain",
     "Record",
@@ -50,8 +51,8 @@ __all__ = [
     "slip_table",
     "summarise",
 ]
-# Imported when first asked for (PEP 562): checking a configuration or drawing a table
-# must not load the compiler.
+# Modules are imported when a name is first used (PEP 562): checking a configuration or
+# drawing a table must not load the compiler.
 _MODULES = {
     "Chain": "model.chain",
     "Record": "solver.run",
@@ -70,7 +71,7 @@ _MODULES = {
     "summarise": "analysis.summary",
 }
 
-# A type checker that saw it would take every name for one of this package.
+# Hidden from type checkers, which would accept any name of this package otherwise.
 if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> object:

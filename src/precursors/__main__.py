@@ -1,4 +1,4 @@
-"""`python -m precursors`: the command line."""
+"""Run the command line with `python -m precursors`."""
 
 import sys
 

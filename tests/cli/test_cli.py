@@ -124,15 +124,15 @@ mu_sapp = 0.484 = 193.8 N / 400 N; first global slip at 2.632 s.
 
 n_blocks               10
 duration_s             10
-transitions            1871
 events_to_global_slip  7
 events_counted         6
 events_in_all          41
 mu_sapp                0.4844519979
 largest_load_N         193.7807992
-global_slip_load_N     193.7807992
 global_slip_s          2.631997364
 global_slip_end_s      2.632443711
+global_slip_load_N     193.7807992
+transitions            1871
 """
 
 
@@ -325,7 +325,10 @@ def test_measured_loads_begin_with_the_run_and_without_an_offset(
     shift = ("--sample-rate=2", "--data-start=1", "--data-offset=5")
     assert cli("plot", run_file, "--data=F.csv", *shift)[::2] == (0, told)
     code, _, err = cli("plot", run_file, "--data=F.csv", *shift[:1], "--data-start=9")
-    assert (code, err) == (2, "precursors plot: F.csv ends before --data-start\n")
+    assert (code, err) == (
+        2,
+        "precursors plot: F.csv ends before the start of the run\n",
+    )
 
 
 @pytest.mark.parametrize(

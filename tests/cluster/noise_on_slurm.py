@@ -1,8 +1,7 @@
-"""Runs with noise as jobs of a real SLURM: seen in its queue, one cancelled, made up, equal to
-local ones.
+"""Runs with noise as jobs of a real SLURM: one is cancelled and rerun, and all results
+equal local ones.
 
-`make test-cluster` runs this file, which the ordinary run of the tests does not
-collect.
+Only `make test-cluster` runs this file.
 """
 
 import json
@@ -20,8 +19,7 @@ CORES = int(os.environ.get("CORES", "2"))
 TABLE = "results/tables/noise.csv"
 CHUNKS = 4
 SMALL = {"chunks": CHUNKS, "noise": {"runs": 4000}}
-# What a machine of one node need not wait for; and a failed job shall stay failed until
-# the next call.
+# Short waits, which suffice on one node; and a failed job is not retried in the same call.
 IMPATIENT = [
     "--slurm-init-seconds-before-status-checks=3",
     "--latency-wait=5",
@@ -35,8 +33,8 @@ PLANNED = {f"{JOB}{i}of{CHUNKS}" for i in range(1, CHUNKS + 1)}
 def snakemake(
     directory: Path, *arguments: str, environment: dict[str, str]
 ) -> subprocess.Popen[bytes]:
-    """Start Snakemake for the table of the noise, in a directory beside the copy of the
-    workflow."""
+    """Start Snakemake for the table of the noise study, in a directory beside the copy of
+    the workflow."""
     source = directory.with_name("source")
     command = [
         sys.executable,
@@ -60,8 +58,10 @@ def snakemake(
 def call(
     node: SlurmNode, directory: Path, cancels: bool
 ) -> tuple[int, dict[str, set[str]]]:
-    """Make the table on SLURM, and cancel the first job that runs; the exit code, and the
-    states in which squeue showed each job, by its comment."""
+    """Make the table on SLURM, and cancel the first running job if asked.
+
+    Returns the exit code, and the states in which squeue showed each job, by comment.
+    """
     before = {job for job, *_ in jobs(node)}
     states: dict[str, set[str]] = {}
     profile = "--profile=workflow/profiles/slurm"
@@ -81,13 +81,12 @@ def call(
 
 
 def jobs(node: SlurmNode) -> list[list[str]]:
-    """Number, state and comment of every job that squeue shows, finished ones
-    included."""
+    """Number, state and comment of every job, including finished ones."""
     listed = node.query("squeue", "--states=all", "--noheader", "--format=%i|%T|%k")
     return [line.split("|") for line in listed.splitlines()]
 
 
-def test_a_cancelled_job_is_made_up_by_the_next_call_and_all_chunks_are_local_ones(
+def test_a_cancelled_job_is_rerun_and_chunks_equal_local_ones(
     tmp_path,
 ):
     left_out = shutil.ignore_patterns("results", ".*", "tests")
@@ -101,17 +100,17 @@ def test_a_cancelled_job_is_made_up_by_the_next_call_and_all_chunks_are_local_on
         failed, states = call(node, there, cancels=True)
         made = {JOB + file.stem for file in there.glob("results/ensembles/*/*.csv")}
         again, missing = call(node, there, cancels=False)
-    said = there.with_suffix(".txt").read_text(encoding="utf-8")
+    output = there.with_suffix(".txt").read_text(encoding="utf-8")
 
-    # Every chunk and nothing else was a job in the queue.
+    # Every chunk was a job in the queue, and there were no other jobs.
     assert states.keys() == PLANNED
     assert all("RUNNING" in of_job for of_job in states.values()), states
-    # The call says that a job failed and finishes all others; the next one makes it up.
+    # The call fails but finishes all other jobs; the next call runs the cancelled one.
     cancelled = {name for name, of_job in states.items() if "CANCELLED" in of_job}
     assert failed
     assert len(cancelled) == 1
     assert made == PLANNED - cancelled
-    assert again == 0, said
+    assert again == 0, output
     assert missing.keys() == cancelled
     files = [*here.glob("results/ensembles/*/*.csv"), here / TABLE]
     assert len(files) == CHUNKS + 1

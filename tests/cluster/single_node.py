@@ -1,5 +1,4 @@
-"""A SLURM of one node in a directory of its own, started and stopped again without a
-trace elsewhere."""
+"""A SLURM of one node whose files are all in one directory."""
 
 import getpass
 import os
@@ -21,12 +20,12 @@ SUPERUSER_PATH = os.pathsep.join(("/usr/local/sbin", "/usr/sbin", "/sbin"))
 
 @dataclass(frozen=True)
 class SlurmNode:
-    """A running SLURM: the environment that its commands need."""
+    """A running SLURM, with the environment of its commands."""
 
     environment: dict[str, str]
 
     def query(self, *command: str) -> str:
-        """What a command of SLURM prints."""
+        """Output of a command of SLURM."""
         return subprocess.run(
             command,
             env=self.environment,
@@ -39,13 +38,12 @@ class SlurmNode:
 
 @contextmanager
 def slurm_node(directory: Path, cpus: int) -> Iterator[SlurmNode]:
-    """Start a SLURM with so many CPUs, whose files all lie in a new directory; stop it
-    again with its jobs.
+    """Start a SLURM with `cpus` CPUs in a new directory, and stop it with its jobs.
 
     Raises
     ------
     RuntimeError
-        If it does not come up in time, with what its daemons said.
+        If it does not start in time, with the output of its daemons.
     """
     for name in ("state", "spool", "bin"):
         (directory / name).mkdir(parents=True)
@@ -61,14 +59,14 @@ def slurm_node(directory: Path, cpus: int) -> Iterator[SlurmNode]:
     }
     path = os.pathsep.join((str(directory / "bin"), os.environ["PATH"], SUPERUSER_PATH))
     node = SlurmNode(inherited | {"PATH": path, "SLURM_CONF": str(configuration)})
-    # Jobs lose SLURM_CONF before they call srun.
+    # SLURM_CONF is not in the environment of jobs, which call srun.
     wrapper = directory / "bin/srun"
     srun = shutil.which("srun", path=path)
     wrapper.write_text(
         f'#!/bin/sh\nSLURM_CONF={configuration} exec {srun} "$@"\n', encoding="utf-8"
     )
     wrapper.chmod(0o755)
-    # By force: other users cannot reach its socket, nor need they.
+    # munged refuses a socket that other users cannot reach, unless forced.
     munge = ["--force", f"--key-file={key}", f"--socket={directory}/munge.socket"]
     munge += [
         f"--{kind}-file={directory}/munged.{kind}" for kind in ("pid", "log", "seed")
@@ -118,7 +116,7 @@ def wait_until_idle(node: SlurmNode, directory: Path) -> None:
         except subprocess.SubprocessError:
             pass
         sleep(0.2)
-    said = [
+    outputs = [
         path.read_text(encoding="utf-8")[-1500:] for path in directory.glob("*.out")
     ]
-    raise RuntimeError("SLURM does not come up:\n" + "\n".join(said))
+    raise RuntimeError("SLURM does not start:\n" + "\n".join(outputs))

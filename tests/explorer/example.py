@@ -1,4 +1,4 @@
-"""The page that the build wrote, and its picture for README."""
+"""The page of the build, and its picture for README."""
 
 import hashlib
 import zlib
@@ -10,8 +10,9 @@ SOURCE = ROOT / "src/maegawa2010/explorer"
 PAGE = ROOT / "results/explorer.html"
 PICTURE = ROOT / "docs/explorer.png"
 THETAS = {"fig10": 0.0, "fig11": -5 / 6, "fig12": 5 / 6}
-TOLERANCE = 1e-9  # s, of the times of a run that is called predictable
+TOLERANCE = 1e-9  # s, error of a time up to which a run counts as predictable
 LAPTOP = (1280, 800)  # px
+MARGIN = 8  # px, above the picture
 END = 12  # bytes of the last chunk of a PNG
 SETTLED = (
     "run && !state.playing && request.isShown && !request.next && run.isFinal"
@@ -28,8 +29,8 @@ def drawn_from() -> str:
 
 
 def picture() -> bytes:
-    """The row in the middle of the second step's precursor, and its slips, as a PNG that
-    says what it was drawn from."""
+    """The row and the slips over time in the middle of the second step's precursor, as a
+    PNG that contains the digest `drawn_from`."""
     path = find_browser()
     if path is None:
         raise FileNotFoundError("no Chromium or Chrome here")
@@ -40,6 +41,7 @@ def picture() -> bytes:
         middle = "0.6 * (event().end - event().onset)"
         page.evaluate(f"state.time = event().onset + {middle}, redraw()")
         page.wait_for(f"run.motions.has(state.event) && {SETTLED}")
+        page.evaluate("document.querySelector('header').style.visibility = 'hidden'")
         page.evaluate("redraw()")
         page.settle()
         place = "element('{}').getBoundingClientRect().{}"
@@ -47,7 +49,8 @@ def picture() -> bytes:
             page.evaluate(place.format(*side))
             for side in (("row", "top"), ("row", "right"), ("slips", "bottom"))
         )
-        png = page.picture(x=0, y=top, width=right + 8, height=bottom - top, scale=1)
+        height = bottom - top + MARGIN
+        png = page.picture(x=0, y=top - MARGIN, width=right + 8, height=height, scale=1)
     chunk = b"tEXtSource\0" + drawn_from().encode()
     size, check = (n.to_bytes(4) for n in (len(chunk) - 4, zlib.crc32(chunk)))
     return png[:-END] + size + chunk + check + png[-END:]

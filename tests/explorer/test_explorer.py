@@ -1,4 +1,4 @@
-"""The page tells, moves and draws what the library finds, and serves every reader."""
+"""The page has the numbers, motion and colours of the library, and is accessible."""
 
 import json
 import re
@@ -7,7 +7,7 @@ from time import perf_counter
 
 import numpy as np
 import pytest
-from colours import SIGHTS, TOLD_APART, alike, in_cielab
+from colours import DISTINCT, SIGHTS, alike, in_cielab
 from explorer.example import (
     LAPTOP,
     PICTURE,
@@ -24,23 +24,25 @@ from precursors.figures import style
 
 SCENES = ["fig11", "fig10", "fig12"]
 MOST_BYTES = 120e3
-# Predictability times of the page, which has one twin, and of the library, which has
-# sixteen, agree within a factor.
-OF_PREDICTABILITY = 2.0
-# A motion that is played has steps of time, in which it changes by less than
-OF_FORCES = 2.0  # N
-OF_SHIFTS = 2e-7  # m
-# s, the shortest film of an event that is shown alone, and of it what is waited for
-FILM = 3.0
-SEEN = 0.3
+# Factor between the predictability times of the page, which has one twin, and of the
+# library, which has sixteen.
+PREDICTABILITY_FACTOR = 2.0
+# An animated motion has discrete times, between which it changes by less than
+FORCE_STEP = 2.0  # N
+SHIFT_STEP = 2e-7  # m
+# Error of a mean of F_X/F_Z: the page interpolates linearly between transitions.
+MEAN_ERROR = 2e-5
+FILM = 3.0  # s, shortest film of an event that is shown alone
+WATCHED = 0.3  # s, the part of it that the test plays
 PHONE = (390, 844)  # px
+LANDSCAPE = (844, 390)  # px, the phone turned
 ZOOMED = (640, 400)  # px, the laptop at 200 %
-SHIFT = 0.02  # of the layout, largest sum over the steps and over a drag
-TARGET = 44  # px, smallest width and height of what a finger meets
+LAYOUT_SHIFT = 0.02  # largest sum over the steps and over a drag
+TARGET = 44  # px, smallest width and height of a control for a finger
 TEXT_CONTRAST = 4.5  # WCAG 2.2 AA
 MARK_CONTRAST = 3.0  # WCAG 2.2 AA
 
-# What a reader does; with fewer than the last step's 40 blocks, which take seconds.
+# Actions of a reader.
 TOOLS = """
   var press = (query) => document.querySelector(query).click();
   var set = (query, ...values) => values.forEach((value) => {
@@ -53,13 +55,12 @@ TOOLS = """
     const at = { clientX: box.left + x, clientY: box.top + y, bubbles: true };
     element(id).dispatchEvent(new MouseEvent("click", at));
   };
-  STEPS.at(-1).blocks = 12;
 """
 
 
-def open_explorer(page, file, *size):
-    page.open(file.as_uri(), *size)
-    page.prefer(prefers_reduced_motion="reduce")  # less motion: no film is played
+def open_explorer(page, file, *size, address=""):
+    page.open(file.as_uri() + address, *size)
+    page.prefer(prefers_reduced_motion="reduce")  # no film plays
     page.evaluate(f"{TOOLS} state.isToPlay = false, stop()")
     page.wait_for(SETTLED)
 
@@ -69,10 +70,10 @@ def do(page, action):
     page.wait_for(SETTLED)
 
 
-# What it tells, moves and draws
+# Numbers, motion and figures
 
 CHANGES = {
-    "step 4": "press('[data-step=\"4\"]')",
+    "step 5": "press('[data-step=\"5\"]')",
     "its tilt": "press('.seen [data-theta=\"0.01\"]')",
     "theta": "set('#theta', 0.9, -0.25)",
     "one block": "set('#n_blocks', 1)",
@@ -84,7 +85,7 @@ CHANGES = {
 }
 
 
-def test_the_page_tells_what_the_library_finds_with_the_pages_command(
+def test_the_page_has_the_numbers_of_the_library(
     page, file, tmp_path, capsys, monkeypatch
 ):
     monkeypatch.chdir(tmp_path)
@@ -95,22 +96,22 @@ def test_the_page_tells_what_the_library_finds_with_the_pages_command(
         commands[name] = page.evaluate("command()")
         how = [*shlex.split(commands[name])[2:], "--until-global-slip", "--json"]
         assert cli.main(["simulate", *how]) == 0
-        found = json.loads(capsys.readouterr().out)
+        summary = json.loads(capsys.readouterr().out)
         expected = "No global slip in 10 s"
-        if time := found["global_slip_s"]:
-            n = found["events_counted"]
+        if time := summary["global_slip_s"]:
+            n = summary["events_counted"]
             expected = (
                 f"{n} event{'s' * (n > 1)}, counted as in Fig. 13 · "
-                f"μsapp = {found['mu_sapp']:.4f} · first global slip at "
+                f"μsapp = {summary['mu_sapp']:.4f} · first global slip at "
             ) + (f"{time:.3f} s" if time >= 1 else f"{1e3 * time:.1f} ms")
-        told = page.evaluate("plain(shown.answers)")
-        assert told.startswith(expected), name
-        assert ("proved" in told) == (name == "step 4")
+        answers = page.evaluate("plain(shown.answers)")
+        assert answers.startswith(expected), name
+        assert ("proved" in answers) == (name == "step 5")
     assert len(set(commands.values())) == len(CHANGES)
     assert "--mu-s 0.9 --mu-k 0.8" in commands["mu_k comes back"]
 
 
-def test_the_row_moves_and_its_springs_push_as_the_library_says(page, file):
+def test_the_row_has_the_displacements_and_forces_of_the_library(page, file):
     run = simulate(Chain.from_slider(theta=0.9), until="global slip")
     slip = slip_table(run).query("counted").iloc[-3]
     open_explorer(page, file)
@@ -125,12 +126,12 @@ def test_the_row_moves_and_its_springs_push_as_the_library_says(page, file):
         forces = page.evaluate(f"[...{frame}.forces].slice(0, -1)")
         positions = run.at([time])[0][0]
         moved = positions - positions[-1]
-        assert shifts - shifts[-1] == pytest.approx(moved, abs=OF_SHIFTS)
-        assert forces == pytest.approx(run.spring_forces([time])[0], abs=OF_FORCES)
+        assert shifts - shifts[-1] == pytest.approx(moved, abs=SHIFT_STEP)
+        assert forces == pytest.approx(run.spring_forces([time])[0], abs=FORCE_STEP)
         assert page.evaluate(f"{frame}.modes.some(Boolean)") == (share < 1)
 
 
-def test_an_event_is_a_film_of_three_seconds_that_stops_at_its_end(page, file):
+def test_an_event_plays_for_three_seconds_and_stops_at_its_end(page, file):
     open_explorer(page, file)
     page.prefer(prefers_reduced_motion="no-preference")
     page.evaluate("goToStep(1)")
@@ -138,9 +139,9 @@ def test_an_event_is_a_film_of_three_seconds_that_stops_at_its_end(page, file):
     first, last = page.evaluate("[event().onset, event().end].map(inFilm)")
     assert last - first == pytest.approx(FILM)
     began = perf_counter()
-    page.evaluate(f"stop(), state.time = inRun({last - SEEN}), play()")
+    page.evaluate(f"stop(), state.time = inRun({last - WATCHED}), play()")
     page.wait_for("!state.playing")
-    assert perf_counter() - began > SEEN
+    assert perf_counter() - began > WATCHED
     assert page.evaluate("[state.view, state.time - event().end]") == ["event", 0]
 
 
@@ -165,21 +166,21 @@ def test_the_keyboard_reaches_the_six_steps_and_every_event(page, file):
         page.settle()
         kind = "precursor" if slip.counted else "shorter precursor"
         kind = "global slip" if slip.is_global else kind
-        told = " ".join(page.evaluate("element('readout').textContent").split())
-        assert told.startswith(f"Event {slip.Index + 1} of 60, {kind}: block")
-        assert f"FX: {slip.load_before_N:#.4g} N → {slip.load_after_N:#.4g} N" in told
+        readout = " ".join(page.evaluate("element('readout').textContent").split())
+        assert readout.startswith(f"Event {slip.Index + 1} of 60, {kind}: block")
+        assert (
+            f"FX: {slip.load_before_N:#.4g} N → {slip.load_after_N:#.4g} N" in readout
+        )
         press_key(page, "ArrowRight", code=39)
     for is_playing in (True, False):
         press_key(page, " ", " ", 32)
         assert page.evaluate("Boolean(state.playing)") == is_playing
 
 
-def test_a_click_on_an_event_opens_it_and_one_beside_events_goes_to_that_time(
-    page, file
-):
+def test_a_click_opens_the_nearest_event_or_goes_to_that_time(page, file):
     open_explorer(page, file)
     for event, place in {
-        4: "'stairs', chart.time.x(run.events[4].onset) + 9",
+        4: "'load', chart.time.x(run.events[4].onset) + 9",
         8: "'slips', chart.time.x(run.events[8].onset) - 9",
         11: "'lengths', chart.marks[11][0] + 9, chart.marks[11][1]",
     }.items():
@@ -199,10 +200,10 @@ def test_a_click_on_an_event_opens_it_and_one_beside_events_goes_to_that_time(
         ({"n_blocks": 25, "theta": -0.3, "mu_s": 1.1, "mu_k": 0.2}, False),
     ],
 )
-def test_from_where_the_library_calls_a_run_unpredictable_the_page_is_grey(
+def test_a_run_is_grey_where_the_library_cannot_predict_it(
     page, file, setting, is_grey
 ):
-    """Also while a slider is held."""
+    """The same holds while a slider is dragged."""
     open_explorer(page, file)
     assert page.evaluate("element('answers').className") == ""
     page.evaluate(f"Object.assign(state.slider, {json.dumps(setting)}), solve(true)")
@@ -216,13 +217,12 @@ def test_from_where_the_library_calls_a_run_unpredictable_the_page_is_grey(
     )
     run = simulate(Chain.from_slider(**setting), 10.0)
     ratio = known / horizon(run, TOLERANCE)
-    assert 1 / OF_PREDICTABILITY < ratio < OF_PREDICTABILITY
+    assert 1 / PREDICTABILITY_FACTOR < ratio < PREDICTABILITY_FACTOR
     assert is_grey == (known < summarise([run])["global_slip_s"].item())
     assert is_grey == (answer == "lost") == ("one draw" in trust)
 
 
-def test_the_steps_tell_the_numbers_of_the_tables(page, file):
-    """Words of the event that is shown follow it."""
+def test_the_steps_have_the_numbers_of_the_tables(page, file):
     open_explorer(page, file)
     text = " ".join(
         page.evaluate(f"goToStep({step}), plain(shown['step-{step}'])")
@@ -234,27 +234,119 @@ def test_the_steps_tell_the_numbers_of_the_tables(page, file):
     medians = full.query("quantity == 'mu_sapp'").pivot_table(
         index="scene", columns="n_blocks", values="q50"
     )
-    runs = made("balance")
-    means = runs[runs["n_blocks"] == 10].set_index("scene")["mean"]
     for values, digits, end in (
         (in_band, 0, " % have the printed"),
-        (medians.loc[SCENES, 10], 3, " with 10 blocks"),
-        (medians.loc[SCENES, 320], 3, " with 320"),
-        (means[SCENES], 4, " FZ"),
+        (medians.loc[SCENES, 320], 3, " with 320 blocks (medians with 0.1 % noise"),
     ):
         first, second, third = (f"{value:.{digits}f}" for value in values)
         assert f"{first}, {second} and {third}{end}" in text
     tilted = page.evaluate("DATA.tilted")
     run = simulate(Chain.from_slider(theta=tilted["theta"]), until="global slip")
     assert f"{apparent_friction(run):.4f}" in text
+
+
+def test_the_means_of_three_loadings_are_those_of_the_table(page, file):
+    table = made("balance").query("n_blocks == 10").set_index("scene").loc[SCENES]
+    open_explorer(page, file)
+    do(page, "goToStep(3)")
+    loadings = "run.loadings.sort((a, b) => a.slider.theta - b.slider.theta)"
+    means = page.evaluate(f"{loadings}.map(meanOf)")
+    for name, column in {"mean": "mean", "peak": "largest"}.items():
+        values = [mean[name] for mean in means]
+        assert values == pytest.approx(table[column].tolist(), abs=MEAN_ERROR)
+    words = page.evaluate("element('study').getAttribute('aria-label')")
+    for row in table.itertuples():
+        assert f"peak {row.largest:.3f}, mean {row.mean:.4f}" in words
+    do(page, "set('#n_blocks', 24)")
+    finer = page.evaluate(f"{loadings}.map(meanOf)")
+    for coarse, fine in zip(means, finer, strict=True):
+        assert fine["peak"] < coarse["peak"]
+
+
+@pytest.mark.parametrize("theta", [0, 0.9])
+def test_each_slip_has_the_reason_where_it_ends(page, file, theta):
+    run = simulate(Chain.from_slider(theta=theta), until="global slip")
+    slips = slip_table(run)
+    chain = run.chain
+    friction = chain.mu_k * np.append(0.0, np.cumsum(chain.weights))
+    open_explorer(page, file)
+    do(page, f"goToStep(2), set('#theta', {theta})")
+    reasons = set()
+    for slip in slips.itertuples():
+        page.evaluate(f"choose({slip.Index})")
+        page.settle()
+        end = np.interp(slip.load_before_N, friction, np.arange(11))
+        if slip.front == 10:
+            spare = slip.load_before_N - friction[-1]
+            expected = f", the last, and {spare:.4g} N of the push are left."
+        elif slip.front < end - 1:
+            after = run.spring_forces([slip.end_s])[0]
+            net = after[slip.front] - np.append(after, 0)[slip.front + 1]
+            most = chain.mu_s * chain.weights[slip.front]
+            numbers = f"{abs(net):.4g} N, below its limit of {most:.4g} N."
+            expected = f"the net force on block {slip.front + 1} is then {numbers}"
+        else:
+            expected = ", where the line ends."
+            assert slip.front <= end + 1
+        words = " ".join(page.evaluate("element('step-2').textContent").split())
+        assert f"reaches block {slip.front}" in words
+        assert expected in words
+        reasons.add(expected[:9])
+    assert len(reasons) > 2
+
+
+def test_the_line_of_the_onset_stays_while_the_row_slips(page, file):
+    open_explorer(page, file)
+    do(page, "goToStep(4)")
+    before = page.evaluate("[...event().force].slice(1)")
+    for share in (0, 0.5, 1):
+        time = f"event().onset + {share} * (event().end - event().onset)"
+        page.evaluate(f"state.time = Math.min({time}, event().end), redraw('row')")
+        page.wait_for(f"run.motions.has(state.event) && {SETTLED}")
+        assert page.evaluate("[...frameAt(state.time).before]") == before
+    assert page.evaluate("frameAt(state.time).load") < before[0]
+
+
+def test_the_address_restores_a_state(page, file):
+    open_explorer(page, file)
+    do(page, "goToStep(3)")
+    do(page, "set('#theta', 0.4), set('#n_blocks', 7)")
+    address = page.evaluate("location.hash")
+    assert address == "#step=mean&theta=0.4&blocks=7"
+    length = page.evaluate("history.length")
     do(page, "goToStep(2)")
-    do(page, "choose(9)")
-    front = page.evaluate("event().front")
-    assert f"after block {front}" in page.evaluate("element('step-2').textContent")
+    do(page, "move(2)")
+    event = page.evaluate("state.event")
+    assert page.evaluate("location.hash") == f"#step=push&event={event + 1}"
+    assert page.evaluate("history.length") == length
+    open_explorer(page, file, address="#step=push&event=9&mu-k=0.4")
+    assert page.evaluate("[state.step, state.event, run.slider.mu_k]") == [2, 8, 0.4]
+    assert page.evaluate("element('refused').textContent") == ""
+    wrong = {
+        "step=9": "must be one of slip, push, mean, peak, tilt, digits",
+        "blocks=2.5": "must be a whole number from 1 to 40",
+        "theta=x": "must be from -0.99 to 0.99",
+        "mu-k=0.9": "must not be above mu-s",
+        "tilt=1": "the name must be step, event, theta,",
+    }
+    open_explorer(page, file, address="#" + "&".join(wrong))
+    refused = page.evaluate("element('refused').textContent")
+    for part, rule in wrong.items():
+        assert f"Left out of the address: {part}: {rule}" in refused
+    assert page.evaluate("state.slider") == page.evaluate("STEPS[0].scene.slider")
+
+
+def test_a_key_pressed_before_the_run_is_there_waits_for_it(page, file):
+    open_explorer(page, file)
+    do(page, "goToStep(2)")
+    shown = page.evaluate("state.event")
+    do(page, "goToStep(5)")
+    do(page, "goToStep(2), move(1), move(1)")
+    assert page.evaluate("state.event") == shown + 2
 
 
 @pytest.mark.parametrize("part", ["bars", "frames", "line", "blocks"])
-def test_a_word_singles_out_what_it_names(page, file, part):
+def test_a_word_highlights_its_part_of_the_picture(page, file, part):
     open_explorer(page, file)
     do(page, "goToStep(2)")
     before = page.evaluate("element('row').toDataURL()")
@@ -263,7 +355,7 @@ def test_a_word_singles_out_what_it_names(page, file, part):
     assert page.evaluate("element('row').toDataURL()") != before
 
 
-# Everybody
+# Size, network, accessibility and colours
 
 
 def test_the_picture_in_readme_was_drawn_from_this_page():
@@ -272,7 +364,7 @@ def test_the_picture_in_readme_was_drawn_from_this_page():
     assert len(png) < MOST_BYTES
 
 
-def test_the_page_is_one_small_file_that_asks_the_network_for_nothing(page, file):
+def test_the_page_is_one_small_file_without_network_requests(page, file):
     open_explorer(page, file)
     assert file.stat().st_size < MOST_BYTES
     assert page.complaints == []
@@ -280,10 +372,10 @@ def test_the_page_is_one_small_file_that_asks_the_network_for_nothing(page, file
     assert asked == {file.as_uri()}
 
 
-def test_a_finger_meets_every_control_and_the_sliders_cover_none(page, file):
+def test_every_control_is_large_enough_and_not_covered(page, file):
     open_explorer(page, file)
     page.evaluate("document.querySelectorAll('details').forEach(d => d.open = true)")
-    for size in (LAPTOP, PHONE, ZOOMED):
+    for size in (LAPTOP, PHONE, ZOOMED, LANDSCAPE):
         page.resize(*size)
         page.settle()
         assert_within_reach(page)
@@ -291,13 +383,13 @@ def test_a_finger_meets_every_control_and_the_sliders_cover_none(page, file):
 
 
 def assert_within_reach(page):
-    """Every control is large enough, and seen where it has the focus."""
+    """Every control is large enough, and visible when it has the focus."""
     controls = page.evaluate(
         "[...document.querySelectorAll('button, input, summary')]"
         ".filter(e => e.checkVisibility({ visibilityProperty: true }) && !e.disabled)"
         ".map(e => { e.focus(); const box = e.getBoundingClientRect();"
         " const last = e.closest('#sliders') ? innerHeight : element('sliders').getBoundingClientRect().top;"
-        # words in a sentence may be smaller
+        # Words in a sentence may be smaller.
         " const least = e.closest('p .word') ? 0 : Math.min(box.width, box.height);"
         " return [e.outerHTML, least, box.top, last - box.bottom] })"
     )
@@ -326,7 +418,7 @@ DRAG = """(async () => {
 
 
 @pytest.mark.parametrize("size", [LAPTOP, PHONE])
-def test_nothing_jumps_between_steps_and_in_a_drag(page, file, size):
+def test_the_layout_does_not_shift_between_steps_or_in_a_drag(page, file, size):
     open_explorer(page, file, *size)
     page.evaluate(WATCH_SHIFTS)
     for step in range(1, 7):
@@ -335,12 +427,12 @@ def test_nothing_jumps_between_steps_and_in_a_drag(page, file, size):
     page.evaluate(DRAG)
     page.wait_for(SETTLED)
     page.settle()
-    assert page.evaluate("shift") < SHIFT
+    assert page.evaluate("shift") < LAYOUT_SHIFT
     if size == LAPTOP:
         assert page.evaluate("document.documentElement.scrollHeight") <= size[1]
 
 
-def test_a_reader_who_listens_hears_words_when_a_slider_is_let_go(page, file):
+def test_screen_readers_announce_a_slider_when_it_is_released(page, file):
     open_explorer(page, file)
     live = "['answers', 'readout', 'step'].map(id => element(id).getAttribute('aria-live'))"
     page.evaluate("setSlider('theta', 0.2), solve(true)")
@@ -349,7 +441,7 @@ def test_a_reader_who_listens_hears_words_when_a_slider_is_let_go(page, file):
     assert page.evaluate(live) == ["polite"] * 3
 
 
-def test_paper_has_the_colours_of_the_light_page(page, file):
+def test_printing_uses_the_light_colours(page, file):
     open_explorer(page, file)
     page.prefer(prefers_color_scheme="dark")
     dark = page.evaluate("readPalette(), palette.paper")
@@ -385,15 +477,15 @@ CONTRASTS = """(() => {
 })()"""
 
 
-def test_the_contrast_is_that_of_wcag_aa_and_every_control_has_a_name(page, file):
+def test_contrasts_meet_wcag_aa_and_every_control_has_a_name(page, file):
     open_explorer(page, file)
     for scheme in ("light", "dark"):
         page.prefer(prefers_color_scheme=scheme)
         page.settle()
         texts, marks = page.evaluate(CONTRASTS)
         assert len(texts) > 30
-        assert [found for found in texts if found[0] < TEXT_CONTRAST] == []
-        assert [found for found in marks if found[0] < MARK_CONTRAST] == []
+        assert [text for text in texts if text[0] < TEXT_CONTRAST] == []
+        assert [mark for mark in marks if mark[0] < MARK_CONTRAST] == []
     page.prefer()
     nameless = page.evaluate(
         "[...document.querySelectorAll('canvas, button, input')].filter(e =>"
@@ -412,7 +504,7 @@ FIGURES = {
     "leading": style.LEADING,
     "unsure": style.GREY,
 }
-# Marks that stand side by side. A backward slip is half as high besides.
+# Marks that stand side by side. A backward slip differs by its height, too.
 SIDE_BY_SIDE = [
     ("partial", "global", "unsure"),
     ("trailing", "uniform", "leading", "unsure"),
@@ -420,8 +512,8 @@ SIDE_BY_SIDE = [
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_a_colour_means_the_same_as_in_the_figures_and_no_other(scheme):
-    sheet = (SOURCE / "explorer.css").read_text(encoding="utf-8")
+def test_colours_are_those_of_the_figures_and_differ(scheme):
+    sheet = (SOURCE / "page.css").read_text(encoding="utf-8")
     light, dark = (
         dict(re.findall(r"--(\w+): (#\w+);", block))
         for block in re.findall(r":root[^{]*{([^}]*)}", sheet)[:2]
@@ -430,7 +522,7 @@ def test_a_colour_means_the_same_as_in_the_figures_and_no_other(scheme):
     figures = in_cielab(FIGURES)
     places = in_cielab(colors)
     for name in FIGURES:
-        assert np.linalg.norm(places[name] - figures[name]) < TOLD_APART, name
+        assert np.linalg.norm(places[name] - figures[name]) < DISTINCT, name
     for sight in SIGHTS:
         for names in SIDE_BY_SIDE:
             assert alike({name: colors[name] for name in names}, sight) == []

@@ -1,4 +1,4 @@
-"""The page's solver finds the transitions that the library finds."""
+"""The page's solver gives the transitions of the library."""
 
 import json
 
@@ -7,7 +7,7 @@ import pytest
 from explorer.example import SOURCE, THETAS
 from settings import CONFIG
 
-from maegawa2010.explorer.page import proved_slider
+from maegawa2010.explorer.data import proved_slider
 from maegawa2010.scenes import scene_slider
 from precursors import Chain, find_slips, simulate
 from precursors.model.chain import SLIDER
@@ -15,7 +15,7 @@ from precursors.solver.simulate import TransitionLimitError
 
 # Largest relative error of a time.
 TIME = 1e-9
-# Of the random chains, whose errors grow with the chaos of the motion.
+# Of random chains; errors grow with the chaos of the motion.
 MOST_TRANSITIONS = 200
 
 SOLVE = """(() => {
@@ -30,7 +30,7 @@ SOLVE = """(() => {
 
 
 def random_slider(rng):
-    """A slider from all that the page can be set to."""
+    """A slider with values from the whole ranges of the page."""
     mu_s = rng.uniform(0.2, 1.5)
     return {
         "n_blocks": int(rng.integers(1, 41)),
@@ -43,7 +43,7 @@ def random_slider(rng):
 
 
 def first_transitions(slider):
-    """Of a run of the library, which may end with a limit."""
+    """A run of the library with at most `MOST_TRANSITIONS`."""
     try:
         chain = Chain.from_slider(**slider)
         return simulate(chain, 1e9, max_transitions=MOST_TRANSITIONS)
@@ -51,7 +51,7 @@ def first_transitions(slider):
         return error.run
 
 
-def test_random_sliders_and_those_that_are_called_proved_move_as_in_the_kernel(page):
+def test_random_and_proved_sliders_move_as_in_the_library(page):
     rng = np.random.default_rng(2010)
     random = [random_slider(rng) for _ in range(50)]
     proved = [proved_slider(values) for values in CONFIG["horizon"]["proved"].values()]
@@ -64,10 +64,10 @@ def test_random_sliders_and_those_that_are_called_proved_move_as_in_the_kernel(p
         for slider, run in zip(random + proved, runs, strict=True)
     ]
     solver = (SOURCE / "solver.js").read_text(encoding="utf-8")
-    found = page.evaluate(
+    columns = page.evaluate(
         SOLVE % (solver.replace('"use strict";', ""), json.dumps(asked))
     )
-    for run, (time, block, mode, fronts) in zip(runs, found, strict=True):
+    for run, (time, block, mode, fronts) in zip(runs, columns, strict=True):
         assert block == run.transitions["block"].tolist()
         assert mode == run.transitions["mode"].tolist()
         assert time == pytest.approx(run.transitions["time"], rel=TIME)

@@ -1,5 +1,5 @@
-"""Replace the golden files by what the workflow and the library give; `git diff` shows
-what changed."""
+"""Replace the golden files by those of the build and of the library; `git diff` shows the
+changes."""
 
 import shutil
 import sys
@@ -15,7 +15,7 @@ from places import GOLDEN, RESULTS, ROOT
 from precursors.figures import style
 from precursors.support.files import write_whole
 
-# What is read without a build.
+# Committed copies of results, for readers who do not build.
 BUILT = {
     "explorer.html": "docs/explorer.html",
     "paper.pdf": "paper/paper.pdf",
@@ -24,8 +24,8 @@ BUILT = {
 
 
 def pictures() -> dict[Path, Any]:
-    """All small pictures by file: a test has those of its subject in PICTURES, and they
-    lie beside it."""
+    """Functions that draw small pictures, by file: each test lists its own in PICTURES,
+    and the files are beside the test."""
     drawn: dict[Path, Any] = {}
     for file in sorted((ROOT / "tests").rglob("test_*.py")):
         if "\nPICTURES = {" in file.read_text(encoding="utf-8"):
@@ -36,14 +36,14 @@ def pictures() -> dict[Path, Any]:
 
 
 def write_picture(path: Path, how: Any) -> None:
-    """Write a picture of few pixels; `how` draws it, or draws it with a look."""
+    """Write a picture of few pixels; `how` is its function, or its function and a look."""
     draw, look = how if isinstance(how, tuple) else (how, style.LOOK)
     with mock.patch.object(style, "PNG_DPI", 60):
         style.save(draw(), path, look)
 
 
 def main() -> None:
-    """Copy golden files from results/, and make the small ones."""
+    """Copy golden files from results/, and draw the small pictures."""
     for file in codecheck.manifest(ROOT):
         shutil.copy(ROOT / file, GOLDEN)
     for path, how in pictures().items():

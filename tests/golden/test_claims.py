@@ -1,4 +1,4 @@
-"""The check of the claims names a result that was falsified."""
+"""The check of the claims reports changed verdicts and changed files."""
 
 import json
 import os
@@ -10,57 +10,75 @@ import pytest
 from places import RESULTS, made
 
 from maegawa2010.paper.inputs import CLAIM_TABLES
-from maegawa2010.support.provenance import checksums
-
-TABLES = RESULTS / "tables"
 
 
-def test_the_check_prints_every_claim_and_the_totals_and_fails_if_a_verdict_is_another(
-    tmp_path, capsys
-):
-    check_claims.main(TABLES)
-    told = capsys.readouterr().out
+def test_the_check_prints_all_claims_and_fails_on_a_new_verdict(tmp_path, capsys):
+    check_claims.main(RESULTS)
+    text = capsys.readouterr().out
     claims = made("claims").to_dict("records")
-    for claim, block in zip(claims, told.split("\n    [")[1:], strict=True):
+    for claim, block in zip(claims, text.split("\n    [")[1:], strict=True):
         assert block.startswith(f"{claim['claim']}]  {claim['section']}\n")
         words = " ".join(block.split())
         assert f"{claim['verdict_text'].upper()}: found {claim['ours']}" in words
         if claim["noise_share"] > 0:
             assert f"Agree: {100 * claim['noise_share']:.0f} % of the runs" in words
-    totals = [re.findall(r"\d+", line) for line in told.splitlines()[-3:]]
+    totals = [re.findall(r"\d+", line) for line in text.splitlines()[-3:]]
     assert sum(int(total) for total, *_ in totals) == len(claims)
     for total, *verdicts in totals:
         assert sum(map(int, verdicts)) == int(total)
         assert "0" not in verdicts
     with pytest.raises(SystemExit, match=r"_slips\.csv is missing: run make all"):
         check_claims.main(tmp_path)
+    (tmp_path / "tables").mkdir()
     for name in CLAIM_TABLES:
-        shutil.copy(TABLES / f"{name}.csv", tmp_path)
+        shutil.copy(RESULTS / f"tables/{name}.csv", tmp_path / "tables")
     lyapunov = made("lyapunov")
     lyapunov.assign(exponent_per_s=-lyapunov["exponent_per_s"]).to_csv(
-        tmp_path / "lyapunov.csv", index=False
+        tmp_path / "tables/lyapunov.csv", index=False
     )
     with pytest.raises(SystemExit, match="check: chaos: is fails, expected holds"):
         check_claims.main(tmp_path)
 
 
-def test_the_check_names_a_result_that_changed_on_disk_with_its_time_kept(tmp_path):
-    (tmp_path / "tables").mkdir()
-    table = tmp_path / "tables/a.csv"
-    table.write_text("1\n")
-    told = checksums([table, tmp_path / "away"], tmp_path)
-    assert check_claims.changed(tmp_path, told) == []
+@pytest.fixture
+def copy(tmp_path):
+    """A copy of the tables and of a figure, with their provenance."""
+    shutil.copytree(RESULTS / "tables", tmp_path / "tables")
+    (tmp_path / "figures").mkdir()
+    shutil.copy2(RESULTS / "figures/fig10.svg", tmp_path / "figures")
+    shutil.copy2(RESULTS / "provenance.json", tmp_path)
+    return tmp_path
+
+
+def test_the_check_names_a_changed_table_even_if_its_time_is_old(copy):
+    check_claims.main(copy)
+    table = copy / "tables/measures.csv"
     times = table.stat().st_atime_ns, table.stat().st_mtime_ns
-    table.write_text("2\n")
-    os.utime(table, ns=times)
-    assert check_claims.changed(tmp_path, told) == [
-        f"{table} is not as it was made: delete it, and run make all"
-    ]
+    for has_old_time in (True, False):
+        with table.open("a") as file:
+            file.write("edited\n")
+        if has_old_time:
+            os.utime(table, ns=times)
+        with pytest.raises(SystemExit) as error:
+            check_claims.main(copy)
+        line = f"check: {table} is not as it was made: delete it, and run make all"
+        assert str(error.value) == line
 
 
-def test_results_of_another_slider_are_compared_with_nothing(tmp_path):
-    told = json.loads((RESULTS / "provenance.json").read_text())
-    told["config"]["chain"]["mu_k"] = 0.46
-    (tmp_path / "provenance.json").write_text(json.dumps(told))
+def test_a_newer_figure_is_reported_and_an_older_one_fails(copy, capsys):
+    figure = copy / "figures/fig10.svg"
+    figure.write_text("<svg/>")
+    check_claims.main(copy)
+    *_, last = capsys.readouterr().out.splitlines()
+    assert last == "figures/fig10.svg is newer than provenance.json: run make all"
+    (copy / "provenance.json").touch()
+    with pytest.raises(SystemExit, match=r"fig10\.svg is not as it was made: delete"):
+        check_claims.main(copy)
+
+
+def test_results_of_another_slider_are_not_compared(tmp_path):
+    made = json.loads((RESULTS / "provenance.json").read_text())
+    made["config"]["chain"]["mu_k"] = 0.46
+    (tmp_path / "provenance.json").write_text(json.dumps(made))
     with pytest.raises(SystemExit, match="is not the paper's: nothing to compare"):
-        check_claims.main(tmp_path / "tables")
+        check_claims.main(tmp_path)

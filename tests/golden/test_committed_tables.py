@@ -1,4 +1,4 @@
-"""The committed table of a long study: its short rows are computed again."""
+"""Fast rows of the committed table of a long study are computed again."""
 
 import pandas as pd
 from places import made
@@ -9,7 +9,7 @@ from maegawa2010.studies.resolution.tables import resolution_study
 from maegawa2010.studies.runs import run_members
 
 
-def test_medians_with_twenty_blocks_are_those_of_the_library():
+def test_committed_medians_with_twenty_blocks_are_reproduced():
     settings = CONFIG["resolution"] | FULL["resolution"]
     study = resolution_study(SLIDERS, CONFIG["duration"], settings)
     few = study.members[study.members["n_blocks"] == 20]

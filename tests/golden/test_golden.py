@@ -1,5 +1,5 @@
-"""Tables and figures that the workflow wrote to results are those in this directory, and
-small pictures those beside their tests (`make golden` replaces them)."""
+"""Tables and figures of the build equal those in this directory, and small pictures equal
+those beside their tests; `make golden` replaces both."""
 
 import re
 from pathlib import Path
@@ -15,12 +15,12 @@ PICTURES = pictures()
 
 
 @pytest.mark.parametrize("file", codecheck.manifest(ROOT))
-def test_a_table_or_figure_is_the_golden_one(file):
+def test_a_table_or_figure_equals_the_golden_one(file):
     assert codecheck.difference(ROOT / file, GOLDEN / Path(file).name) == ""
 
 
 @pytest.mark.parametrize("path", PICTURES, ids=lambda path: path.stem)
-def test_a_small_picture_is_the_golden_one(path, tmp_path):
+def test_a_small_picture_equals_the_golden_one(path, tmp_path):
     drawn = tmp_path / path.name
     write_picture(drawn, PICTURES[path])
     assert codecheck.difference(drawn, path) == ""
@@ -30,14 +30,14 @@ def test_every_check_of_eq_15_holds():
     assert pd.read_csv(RESULTS / "tables/eq15.csv")["holds"].eq(True).all()
 
 
-# Draws near a jump, and means of chaotic motion, fall otherwise on other processors.
+# Samples near a discontinuity, and means of chaotic motion, differ between processors.
 DATA = re.compile(r'(id="data">).*?(?=</script>)', re.DOTALL)
-# Each build measures these anew.
+# Computing times differ in each build.
 TIMES = re.compile(r"[\d.]+ [µm]s")
 
 
 @pytest.mark.parametrize("name", BUILT)
-def test_what_is_read_without_a_build_says_what_the_build_says(name):
+def test_committed_documents_are_those_of_the_build(name):
     built = RESULTS / name
     committed = ROOT / BUILT[name]
     if name.endswith(".pdf"):

@@ -1,4 +1,4 @@
-"""The comparison of methods, published (`make article`) and made anew."""
+"""The comparison of methods, as published (`make article`) and of the build."""
 
 import pytest
 from colorspacious import cspace_convert
@@ -7,11 +7,11 @@ from places import made
 
 from maegawa2010.studies.work_precision.figure import draw
 
-LEAST_CONTRAST = 4.5  # of words with white (WCAG)
+LEAST_CONTRAST = 4.5  # of words on white (WCAG)
 
 
 @pytest.mark.parametrize("name", ["speed", "work_precision"])
-def test_every_method_that_comes_as_close_as_the_exact_solver_takes_longer(name):
+def test_every_method_as_accurate_as_the_exact_solver_is_slower(name):
     table = made(name)
     assert set(table["scene"]) == {"uniform"}
     is_right = table["transitions_right"].eq(table["transitions_true"])

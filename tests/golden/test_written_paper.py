@@ -1,5 +1,4 @@
-"""The article: the same bytes from the same results, and no number that no table
-has."""
+"""The article depends on the results only: all its numbers come from tables."""
 
 import re
 import shutil
@@ -12,7 +11,7 @@ from pdf_text import pages_of
 from places import ROOT
 from pypdf import PdfReader
 
-from maegawa2010.paper.shown import results_shown
+from maegawa2010.paper.documents import cited_results
 
 SOURCE = ROOT / "paper"
 MOST_PAGES = 7
@@ -21,8 +20,8 @@ LEAST_TEXT = 500  # characters of a page
 
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A directory with what the article is made of, to be changed."""
-    for file in results_shown(SOURCE / "paper.typ"):
+    """A directory with copies of the results that the article cites."""
+    for file in cited_results(SOURCE / "paper.typ"):
         (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(ROOT / file, tmp_path / file)
     monkeypatch.chdir(tmp_path)
@@ -31,12 +30,12 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def write() -> bytes:
     write_paper.main(
-        SOURCE / "paper.typ", results_shown(SOURCE / "paper.typ"), "paper.pdf"
+        SOURCE / "paper.typ", cited_results(SOURCE / "paper.typ"), "paper.pdf"
     )
     return Path("paper.pdf").read_bytes()
 
 
-def test_the_article_has_seven_full_pages_at_most_in_the_fonts_of_typst_and_matplotlib():
+def test_the_article_has_at_most_seven_full_pages_in_known_fonts():
     article = ROOT / "results/paper.pdf"
     pages = pages_of(article.read_bytes())
     assert len(pages) <= MOST_PAGES
@@ -53,7 +52,7 @@ def test_the_article_has_seven_full_pages_at_most_in_the_fonts_of_typst_and_matp
     ), fonts
 
 
-def test_the_same_results_give_the_same_bytes_and_others_another_number(here):
+def test_equal_results_give_equal_bytes_and_others_do_not(here):
     assert write() == (ROOT / "results/paper.pdf").read_bytes()
     table = pd.read_csv("results/tables/reproduction.csv")
     table.replace({"reproduced": {56: 57}}).to_csv(
@@ -62,7 +61,7 @@ def test_the_same_results_give_the_same_bytes_and_others_another_number(here):
     assert "of the 57 events are short" in " ".join(pages_of(write()))
 
 
-def test_a_row_or_file_that_is_missing_stops_the_build_in_one_line(here):
+def test_a_missing_row_or_file_stops_the_build_in_one_line(here):
     table = pd.read_csv("results/tables/certificates.csv")
     table[table["chain"] != "uniform"].to_csv(
         "results/tables/certificates.csv", index=False
@@ -71,13 +70,14 @@ def test_a_row_or_file_that_is_missing_stops_the_build_in_one_line(here):
     with pytest.raises(ValueError, match=rf"^{line}[^\n]*$"):
         write()
     assert not Path("paper.pdf").exists()
-    with pytest.raises(FileNotFoundError, match=r"results/figures/lost\.svg"):
-        write_paper.main(
-            SOURCE / "paper.typ", ["results/figures/lost.svg"], "paper.pdf"
-        )
+    shown = cited_results(SOURCE / "paper.typ")
+    shown.remove("results/figures/hero.svg")
+    line = "paper.typ shows results/figures/hero.svg, which no rule makes: "
+    with pytest.raises(ValueError, match=rf"^paper/{line}[^\n]*$"):
+        write_paper.main(SOURCE / "paper.typ", shown, "paper.pdf")
 
 
-def test_a_finding_that_its_table_no_longer_bears_out_stops_the_build(here):
+def test_a_finding_that_a_table_contradicts_stops_the_build(here):
     table = pd.read_csv("results/tables/noise_differences.csv")
     table.replace({"verdict": {"different": "same"}}).to_csv(
         "results/tables/noise_differences.csv", index=False
@@ -87,8 +87,8 @@ def test_a_finding_that_its_table_no_longer_bears_out_stops_the_build(here):
     assert not Path("paper.pdf").exists()
 
 
-# What is no number of ours: comments, names, symbols, code, places in the original,
-# lengths.
+# Digits that are no results: in comments, names, symbols, code, references to the
+# original, and lengths.
 NO_NUMBERS = [
     r"(?m)//.*$",
     r'"[^"\n]*"',
@@ -105,8 +105,8 @@ CALL = r"#?[\w.-]+\([^()]*\)"
 
 
 def typed(text: str) -> list[str]:
-    """Lines with a digit, without the code, names, symbols and places in the original
-    of a document."""
+    """Lines of a document with a digit that is not in code, a name, a symbol or a
+    reference to the original."""
     for pattern in NO_NUMBERS:
         text = re.sub(pattern, " ", text)
     while re.search(CALL, text):
@@ -114,6 +114,6 @@ def typed(text: str) -> list[str]:
     return [line for line in text.splitlines() if re.search(r"[0-9]", line)]
 
 
-def test_no_number_is_typed_and_one_would_be_seen():
+def test_the_article_has_no_typed_number_and_one_would_be_seen():
     assert typed((SOURCE / "paper.typ").read_text(encoding="utf-8")) == []
     assert typed('Of #num("slips", "n", 0) events (Figs. 10 to 13) 6 are counted.')

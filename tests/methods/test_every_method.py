@@ -1,5 +1,5 @@
-"""What every method must do: make the transitions of the exact solver, keep its clock,
-know its Jacobian."""
+"""Every method gives the exact solver's transitions, consistent times, and its number of
+evaluations."""
 
 from itertools import pairwise
 
@@ -10,9 +10,9 @@ from maegawa2010.methods import METHODS, events
 from maegawa2010.methods.events import EventMotion
 from precursors import Chain, simulate
 
-# Blocks, theta, mu_k, and a time [s]: past the first global slip; after a block has
-# slid backward: block 3 of 3 and block 1, which turn round, and block 2, which is
-# released backward from rest.
+# Blocks, theta, mu_k and duration [s]: two runs go beyond the first global slip; in the
+# others a block slides backward: block 3 and block 1, which turn round, and block 2,
+# which is released backward from rest.
 CHAINS = [
     (1, 0.0, 0.45, 3.6),
     (3, 0.0, 0.45, 3.6),
@@ -20,31 +20,29 @@ CHAINS = [
     (3, "5/6", 0.45, 1.5),
     (3, "-5/6", 0.1, 2.13945),
 ]
-# Settings at which a method makes the transitions of a short chain: by its name, or by
-# what the setting is.
+# Values at which a method is right for a short chain, by its name or by its setting.
 FINE = {
     "exact": 0.0,
     "heyoka": 0.0,
     "relative tolerance": 1e-6,
     "step [s]": 1e-8,
 }
-# Error of F_X at a transition [N]: steps are worth 0.3 N.
+# Error of F_X at a transition [N]; a step changes it by 0.3 N.
 LOAD_ERROR = 0.4
-# Methods that stop a block before it turns do so for less than this [s].
+# Some methods stop a block that turns round for less than this [s].
 TURN = 1e-7
-CLOCK = 1e-13  # s; roundings of a sum of some ten intervals
+CLOCK = 1e-13  # s, rounding of a sum of about ten intervals
 CASES = [(name, *case) for name in METHODS for case in CHAINS]
 
 
 STEP = 1e-6  # s
-# One block slides once, from the instant at which it reaches its limit: that is all
-# that the run has.
+# The only event of this run: one block slides once, from when it reaches its limit.
 CHAIN = Chain.from_slider(n_blocks=1)
 LIMIT = float(CHAIN.strength[0]) / CHAIN.loading_rate
 DURATION = LIMIT + 0.01
-# Evaluations in each step and besides: the force at the end of a step is that at the
-# start of the next, the first has to be evaluated; a step in which a block stops is
-# solved again with the block stuck.
+# Evaluations in each step, and further ones: leapfrog needs the first force, later ones
+# are those at the end of the step before; Moreau-Jean solves the step in which the block
+# stops again with a stuck block.
 STEPS = {
     "rk4": (4, 0),
     "leapfrog": (1, 1),
@@ -54,7 +52,7 @@ STEPS = {
 
 
 def without_short_stops(transitions) -> list[tuple[int, int, float]]:
-    """(block, mode, load) without stops of blocks that turn at once."""
+    """(block, mode, load) without stops of blocks that turn round immediately."""
     rows = transitions.tolist()
     turns = {
         k
@@ -69,16 +67,16 @@ def without_short_stops(transitions) -> list[tuple[int, int, float]]:
 
 
 @pytest.mark.parametrize(("name", "n_blocks", "theta", "mu_k", "end"), CASES)
-def test_a_method_makes_the_transitions_of_the_exact_solver_and_its_intervals_are_its_times(
+def test_a_method_agrees_with_the_exact_solver_in_transitions(
     name, n_blocks, theta, mu_k, end
 ):
     chain = Chain.from_slider(n_blocks=n_blocks, theta=theta, mu_k=mu_k)
     method = METHODS[name]
     run = method.solve(chain, end, FINE.get(name, FINE.get(method.setting)), None).run
     exact = without_short_stops(simulate(chain, end).transitions)
-    found = without_short_stops(run.transitions)
-    assert [row[:2] for row in found] == [row[:2] for row in exact]
-    errors = [abs(a[2] - b[2]) for a, b in zip(found, exact, strict=True)]
+    own = without_short_stops(run.transitions)
+    assert [row[:2] for row in own] == [row[:2] for row in exact]
+    errors = [abs(a[2] - b[2]) for a, b in zip(own, exact, strict=True)]
     assert max(errors) < LOAD_ERROR
     ends = np.append(run.transitions["time"], run.duration)
     np.testing.assert_allclose(np.cumsum(run.intervals), ends, rtol=0, atol=CLOCK)

@@ -1,4 +1,4 @@
-"""Whole runs of fixed-step methods: orders with switching, limits, located zeros."""
+"""Runs of fixed-step methods: orders of accuracy, limits, and located roots."""
 
 import numpy as np
 import pytest
@@ -7,9 +7,9 @@ from maegawa2010.methods import METHODS, DivergedError, runge_kutta
 from maegawa2010.methods.fixed_step import FIRST_ROOM
 from maegawa2010.methods.march import march
 from maegawa2010.methods.runge_kutta import run_rk4
-from maegawa2010.studies.failures.stability import highest_frequency
+from maegawa2010.methods.stability import highest_frequency
 from precursors import Chain, Run, TransitionLimitError, simulate
-from precursors.analysis.events import transitions_right
+from precursors.analysis.agreement import transitions_right
 
 # Orders with transitions, and the two steps between which they are measured [s].
 ORDERS = {
@@ -20,12 +20,12 @@ ORDERS = {
     ),
     "rk4_located": (4.0, 8e-7, 2e-7),
 }
-# Where a transition falls within a step is chance: an average over this many steps
-# leaves a few per cent.
+# The position of a transition within its step is random: averaged over this many steps, an
+# error of a few per cent remains.
 STEPS_IN_SAMPLE = 60
 ORDER_TOLERANCE = 0.15
-CLOCK_ROUNDING = 1e-9  # relative, of a clock of some 1e6 steps
-ROUNDING = 1e-12  # of a cubic of order one
+CLOCK_ROUNDING = 1e-9  # relative, of a sum of about 1e6 steps
+ROUNDING = 1e-12  # of a cubic with coefficients of order one
 FIVE_SLIPS = 1.25  # s; the first of theta = 0, with 30 transitions
 
 
@@ -40,8 +40,8 @@ def five_slips(chain: Chain) -> Run:
 
 
 def load_error(run: Run, exact: Run) -> float:
-    """Root mean square error of F_X at the transitions [N], of a run whose transitions
-    are the right ones."""
+    """Root mean square error of F_X at the transitions [N]; the transitions must be the
+    right ones."""
     assert (
         transitions_right(run, exact) == len(run.transitions) == len(exact.transitions)
     )
@@ -51,7 +51,7 @@ def load_error(run: Run, exact: Run) -> float:
     return float(np.sqrt(np.mean(difference**2)))
 
 
-def test_beyond_the_limit_a_run_ends_with_the_last_finite_transitions(chain):
+def test_a_diverging_run_ends_with_its_last_finite_transition(chain):
     step = 1.5 * 2.0 / highest_frequency(chain)
     with pytest.raises(DivergedError, match="the numbers overflow at") as diverged:
         METHODS["leapfrog"].solve(chain, 10.0, step, None)
@@ -62,7 +62,7 @@ def test_beyond_the_limit_a_run_ends_with_the_last_finite_transitions(chain):
     np.testing.assert_allclose(np.cumsum(run.intervals), ends, rtol=CLOCK_ROUNDING)
 
 
-def test_a_record_gets_more_room_and_a_run_ends_at_the_limit_of_transitions():
+def test_a_full_record_grows_and_a_run_ends_at_the_limit():
     chain = Chain.from_slider(n_blocks=3, drive_velocity=1e-2)
     with pytest.raises(
         TransitionLimitError, match=f"max_transitions = {2 * FIRST_ROOM} reached"
@@ -75,7 +75,7 @@ def test_a_record_gets_more_room_and_a_run_ends_at_the_limit_of_transitions():
 
 
 @pytest.mark.parametrize("name", ORDERS)
-def test_the_order_with_transitions_depends_on_how_they_are_located(five_slips, name):
+def test_the_order_depends_on_how_transitions_are_located(five_slips, name):
     order, coarse, fine = ORDERS[name]
 
     def error(step: float) -> float:
@@ -88,13 +88,13 @@ def test_the_order_with_transitions_depends_on_how_they_are_located(five_slips, 
             np.sqrt(np.mean([load_error(run, five_slips) ** 2 for run in runs]))
         )
 
-    found = np.log(error(coarse) / error(fine)) / np.log(coarse / fine)
-    assert found == pytest.approx(order, abs=ORDER_TOLERANCE)
+    measured = np.log(error(coarse) / error(fine)) / np.log(coarse / fine)
+    assert measured == pytest.approx(order, abs=ORDER_TOLERANCE)
 
 
-def test_a_located_step_ends_at_the_first_of_two_roots_however_close():
-    """Also between positive ends, as theirs is where a velocity falls below zero and
-    rises again within a step; none is found where there is none."""
+def test_a_step_ends_at_the_first_of_two_close_roots():
+    """The function is positive at both ends, as when a velocity falls below zero and
+    rises again within a step. A function without a root has none."""
     random = np.random.default_rng(1)
     for _ in range(1000):
         first = random.uniform(0.02, 0.9)
@@ -102,13 +102,13 @@ def test_a_located_step_ends_at_the_first_of_two_roots_however_close():
         polynomial = np.polynomial.Polynomial.fromroots([first, first + apart])
         polynomial *= np.polynomial.Polynomial([1.0, random.uniform(-0.9, 0.9)])
         c = polynomial.coef
-        found = runge_kutta.cubic_root(c, 1.0)
-        assert found == pytest.approx(first, abs=ROUNDING / apart)
+        root = runge_kutta.cubic_root(c, 1.0)
+        assert root == pytest.approx(first, abs=ROUNDING / apart)
         above = np.append(c[0] + apart**2, c[1:])
         assert runge_kutta.cubic_root(above, 1.0) == runge_kutta.NEVER
 
 
-def test_a_block_that_starts_from_rest_is_not_taken_for_one_that_stops():
+def test_a_root_at_the_start_counts_only_if_the_function_falls():
     rises_and_falls = np.array([0.0, 0.4, -1.0, 0.0])
     assert runge_kutta.cubic_root(rises_and_falls, 1.0) == pytest.approx(0.4)
     assert runge_kutta.cubic_root(rises_and_falls, 0.3) == runge_kutta.NEVER

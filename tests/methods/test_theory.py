@@ -1,11 +1,11 @@
-"""While nothing switches, limits and energy of fixed-step methods are those of
+"""Between transitions, fixed-step methods have the stability limits and the energy of
 theory."""
 
 import numpy as np
 import pytest
 
 from maegawa2010.methods import SMOOTH
-from maegawa2010.studies.failures.stability import (
+from maegawa2010.methods.stability import (
     energy_left,
     highest_frequency,
     highest_mode,
@@ -15,7 +15,7 @@ from precursors import Chain
 
 UNSTABLE = [name for name, smooth in SMOOTH.items() if 0.0 < smooth.limit < np.inf]
 LIMIT_TOLERANCE = 1e-6
-# Of a factor per step: rounding of some tens of steps, and of the frequency.
+# Of a factor per step: rounding in the steps and in the frequency.
 FACTOR_TOLERANCE = 1e-9
 
 
@@ -40,13 +40,11 @@ def test_energy_grows_beyond_the_limit_and_not_below_it(name):
         ("moreau_jean_one", 0.1, 200),
     ],
 )
-def test_a_step_changes_the_energy_of_the_fastest_mode_by_the_closed_form(
-    free, name, z, n_steps
-):
+def test_a_step_changes_energy_by_the_factor_of_theory(free, name, z, n_steps):
     step = z / highest_frequency(free)
     mode = highest_mode(free)
     smooth = SMOOTH[name]
-    # Once the energy swings no more: leapfrog's second root fades meanwhile.
+    # The ratio leaves out the first steps, in which leapfrog's decaying solution fades.
     once, twice = (
         energy_left(free, smooth.slide, step, n, mode) for n in (n_steps, 2 * n_steps)
     )

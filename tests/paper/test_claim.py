@@ -1,4 +1,4 @@
-"""A claim gets the verdict that the run and the ensembles around it give."""
+"""Verdicts on claims from the run and the ensembles around it."""
 
 from dataclasses import replace
 
@@ -44,15 +44,13 @@ NAN = float("nan")
         (None, 1000, 400, UNDECIDED),
     ],
 )
-def test_the_run_decides_whether_a_claim_holds_and_the_ensembles_for_which_inputs(
-    holds, noise, digits, verdict
-):
+def test_the_verdict_combines_the_run_and_both_ensembles(holds, noise, digits, verdict):
     shares = {"noise": Share(noise, 1000), "digits": Share(digits, 400)}
     assert Finding(1.0, holds, shares=shares).verdict == verdict
 
 
-def test_draws_are_counted_without_the_run_and_without_a_global_slip_a_claim_does_not_hold():
-    def found(noise: list[float], digits: list[float]) -> Finding:
+def test_draws_are_counted_and_fail_without_a_global_slip():
+    def below_half(noise: list[float], digits: list[float]) -> Finding:
         members = [
             pd.DataFrame({"scene": "s", "draw": range(len(x)), "x": x})
             for x in (noise, digits)
@@ -60,10 +58,10 @@ def test_draws_are_counted_without_the_run_and_without_a_global_slip_a_claim_doe
         tables = dict(zip(("noise_members", "digits_members"), members, strict=True))
         return in_draws(tables, lambda runs: runs["x"], lambda x: x < 0.5)
 
-    finding = found([0.4, 0.4, 0.6], [0.4, 0.4, 0.4, NAN])
+    finding = below_half([0.4, 0.4, 0.6], [0.4, 0.4, 0.4, NAN])
     assert finding.holds
     assert finding.shares == {"noise": Share(1, 2), "digits": Share(2, 3)}
-    assert not found([NAN, 0.4], [NAN, 0.4]).holds
+    assert not below_half([NAN, 0.4], [NAN, 0.4]).holds
 
 
 @pytest.mark.parametrize(
@@ -74,25 +72,23 @@ def test_draws_are_counted_without_the_run_and_without_a_global_slip_a_claim_doe
         (["same", "undecided", "same"], UNDECIDED),
     ],
 )
-def test_mu_sapp_is_the_same_if_the_interval_of_every_difference_says_so(
-    verdicts, verdict
-):
-    found = pd.DataFrame(
+def test_mu_sapp_is_the_same_if_every_interval_says_so(verdicts, verdict):
+    pairs = pd.DataFrame(
         {"quantity": "mu_sapp", "difference": 0.0, "verdict": verdicts}
     )
-    tables = {"noise_differences": found, **members_of(mu_sapp=0.5)}
+    tables = {"noise_differences": pairs, **members_of(mu_sapp=0.5)}
     finding = friction_independent_with_ten_blocks(tables)
     assert replace(finding, shares={}).verdict == verdict
     assert finding.note == "The values of the three runs agree: they differ by 0."
     coarse = pd.DataFrame({"n_blocks": [80], "verdict": "different", "difference": 1.0})
-    by_n = pd.concat([found.assign(n_blocks=160), coarse])
+    by_n = pd.concat([pairs.assign(n_blocks=160), coarse])
     assert friction_independent_of_loading(
         {"resolution_differences": by_n}
     ).verdict == (verdict)
 
 
-def test_the_values_of_three_runs_agree_to_a_unit_of_the_last_digit():
-    """In the run they are 0.011 apart, and in the draw of each ensemble 0.009."""
+def test_three_mu_sapp_agree_to_one_unit_of_the_last_digit():
+    """They differ by 0.011 in the run, and by 0.009 in the draw of each ensemble."""
     run = [0.49, 0.495, 0.501]
     draw = [0.49, 0.495, 0.499]
     members = pd.concat(
@@ -110,20 +106,16 @@ def test_the_values_of_three_runs_agree_to_a_unit_of_the_last_digit():
 @pytest.mark.parametrize(
     ("front", "verdict"),
     [
-        ([1, 3, 2, 4, 5, 6], HOLDS),  # of all orders 0.8 and 4.2 % rise as much
+        ([1, 3, 2, 4, 5, 6], HOLDS),  # 0.8 and 4.2 % of all orders rise as much
         ([2, 1, 4, 3, 5, 6], UNDECIDED),  # 2.8 and 11.7 %
     ],
 )
-def test_lengths_tend_to_increase_if_they_do_so_without_the_global_slip_too(
-    front, verdict
-):
+def test_lengths_increase_if_they_do_without_the_global_slip_too(front, verdict):
     assert lengths_tend_to_increase(slips_of(front=front)).verdict == verdict
 
 
 @pytest.mark.parametrize(("mu_sapp", "verdict"), [(0.6951, HOLDS), (0.6949, UNDECIDED)])
-def test_a_chain_without_waves_can_confirm_the_condition_on_waves_but_not_refute_it(
-    mu_sapp, verdict
-):
+def test_a_chain_without_waves_confirms_or_leaves_undecided(mu_sapp, verdict):
     assert waves(overdamped(mu_sapp)).verdict == verdict
 
 
@@ -131,9 +123,7 @@ def test_a_chain_without_waves_can_confirm_the_condition_on_waves_but_not_refute
     ("low", "high", "verdict"),
     [(3, 3, HOLDS), (0, 3, UNDECIDED), (0, 0, FAILS)],
 )
-def test_count_grows_with_theta_if_the_interval_of_every_difference_is_above_zero(
-    low, high, verdict
-):
+def test_the_count_grows_if_every_interval_is_above_zero(low, high, verdict):
     counts = pd.DataFrame({"scene": SCENES, "events_counted": [6, 9, 14]})
     members = counts.merge(pd.DataFrame({"draw": range(401)}), how="cross")
     pairs = [("fig10", "fig11", 1, 1), ("fig12", "fig10", low, high)]
@@ -144,7 +134,7 @@ def test_count_grows_with_theta_if_the_interval_of_every_difference_is_above_zer
 
 
 @pytest.mark.parametrize(("last", "holds"), [(3.1, True), (3.0, False)])
-def test_growth_falls_with_theta_if_it_is_less_for_each_next_loading(last, holds):
+def test_growth_falls_with_theta_if_every_loading_has_less(last, holds):
     tables = {
         f"{scene}_slips": pd.DataFrame(
             {"load_before_N": [1.0, load], "front": [1, 2], "counted": True}
@@ -154,7 +144,7 @@ def test_growth_falls_with_theta_if_it_is_less_for_each_next_loading(last, holds
     assert growth_falls_with_theta(tables).holds is holds
 
 
-def test_a_run_without_the_event_of_a_claim_contradicts_it_and_a_missing_number_is_one_clear_line():
+def test_a_missing_event_contradicts_and_a_missing_number_raises():
     def no_event(_):
         raise IndexError
 
@@ -174,13 +164,13 @@ def test_a_claim_without_a_function_is_one_clear_line(monkeypatch):
         evaluate({})
 
 
-def test_differences_are_claims_that_are_new_gone_or_of_another_verdict():
+def test_differences_are_new_missing_and_changed_claims():
     def table(**verdicts):
         return pd.DataFrame(verdicts.items(), columns=["claim", "verdict"])
 
-    found = table(a=HOLDS, b=HOLDS, c=EXACT)
+    evaluated = table(a=HOLDS, b=HOLDS, c=EXACT)
     expected = table(a=HOLDS, b=EXACT, d=EXACT)
-    assert differences(found, expected) == [
+    assert differences(evaluated, expected) == [
         "b: is holds, expected exact",
         "c: is exact, expected none",
         "d: is missing, expected exact",
@@ -188,8 +178,7 @@ def test_differences_are_claims_that_are_new_gone_or_of_another_verdict():
 
 
 def slips_of(**columns) -> dict[str, pd.DataFrame]:
-    """The same slip table for each scene, ending with a global slip unless it is said
-    which are."""
+    """The same slip table for each scene; by default the last event is global."""
     table = pd.DataFrame(columns)
     if "is_global" not in table:
         table["is_global"] = table.index == len(table) - 1
@@ -211,13 +200,13 @@ def members_of(**columns) -> dict[str, pd.DataFrame]:
 
 
 def times(spread: float, *is_global: bool) -> dict[str, pd.DataFrame]:
-    """Events whose times vary by `spread`, standard deviation over mean."""
+    """Events whose intervals have this standard deviation over their mean."""
     onset = [0.0, 1.0 - spread, 2.0, 9.0][: len(is_global)]
     return slips_of(onset_s=onset, is_global=is_global)
 
 
 def grown(*speedup: float) -> dict[str, pd.DataFrame]:
-    """The run and one draw of each ensemble, which grow faster by so much."""
+    """The run and one draw of each ensemble with these values of `speedup`."""
     runs = pd.DataFrame({"scene": SCENES, "speedup": speedup}).merge(
         pd.DataFrame({"draw": (0, 1)}), how="cross"
     )

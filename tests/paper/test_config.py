@@ -1,15 +1,15 @@
-"""A wrong configuration is refused in one line: which value, where, and what it must
-be."""
+"""Errors in the configuration: one line says which value, where, and what it must be."""
 
 import copy
 import math
+import re
 
 import pytest
 from places import ROOT
 from settings import CONFIG as PAPERS
 from settings import STUDIES
 
-from maegawa2010.config import check_config, check_sections, read_file, read_numbers
+from maegawa2010.config import check_config, load_config, read_file
 from maegawa2010.scenes import scene_slider
 from precursors.model.chain import Chain
 
@@ -18,24 +18,26 @@ MISSING = object()
 STEEP = {"title": "steep", "theta": 0.9}
 
 
-# Key, value, and words that the line must hold.
-ALIASES = [", ".join([f"*a{i}"] * 9) for i in range(9)]
-NESTED = "a0: &a0 {k: 1}\n" + "".join(
-    f"a{i}: &a{i} {{<<: [{inside}]}}\n" for i, inside in enumerate(ALIASES, 1)
-)
+# Key, value, and words of the error message.
 MEASURED = {"title": "as measured", "weights": [30.0, 40.0, 50.0]}
 WRONG = [
-    (
-        "chain.youngs_modulus",
-        "2.5e9",
-        ["chain.youngs_modulus: '2.5e9'", "2.5e+9 and not as 2.5e9"],
-    ),
+    ("chain.youngs_modulus", "2.5e9", ["chain.youngs_modulus: '2.5e9' is not of type"]),
     ("scenes.fig10.mu_k", 0.9, ["scenes.fig10: ", "mu_k", "0.9", "mu_s = 0.7"]),
     ("chain.n_blocks", 0, ["chain.n_blocks: 0", "minimum of 1"]),
     ("chain.length", math.nan, ["chain: ", "length", "nan"]),
     ("chain.length", MISSING, ["chain: 'length' is a required property"]),
-    ("chain.mass", 0.0012, ["chain: ", "'mass' was unexpected"]),
-    ("speed", 1.0, ["holds 'speed', but must hold names of chain"]),
+    (
+        "chain.mass",
+        0.0012,
+        ["chain has no key 'mass': it must be one of n_blocks, mu_s"],
+    ),
+    ("speed", 1.0, ["top level has no key 'speed': it must be one of chain"]),
+    ("scnes", {}, ["top level has no key 'scnes': did you mean 'scenes'?"]),
+    (
+        "scenes.steep",
+        {"titel": "steep", "theta": 0.9},
+        ["scenes.steep has no key 'titel': did you mean 'title'?"],
+    ),
     (
         "scenes.fig10.load_cell_b",
         MISSING,
@@ -51,12 +53,6 @@ WRONG = [
         "scenes.steep",
         STEEP | {"theta": 1.1},
         ["scenes.steep.theta: 1.1 must be a number between -1 and 1, or"],
-    ),
-    ("scenes.FIG11", STEEP, ["scenes.FIG11 and fig11 differ by case alone"]),
-    (
-        "scenes.steep",
-        STEEP | {"title": "a </script>"},
-        ["scenes.steep.title: ", "without control characters, </ and <!"],
     ),
     ("scenes.st eep", STEEP, ["scenes: 'st eep' must be a name of at most 64 letters"]),
     (
@@ -78,18 +74,14 @@ WRONG = [
     (
         "fig13",
         ["fig10", "fig11", "fig99"],
-        ["fig13 holds 'fig99'", "fig10, fig11, fig12"],
+        ["fig13 has 'fig99': it must be one of fig10, fig11, fig12"],
     ),
     ("figure_formats", ["doc"], ["figure_formats[0]: 'doc' is not one of"]),
-    ("noise.sede", 1, ["noise holds 'sede', but must hold names of seed, runs"]),
+    ("noise.sede", 1, ["noise has no key 'sede': did you mean 'seed'?"]),
     ("noise", [1], ["noise: [1] is not of type 'object'"]),
     ("noise.runs", 0, ["noise.runs: 0 is less than the minimum of 1"]),
     ("horizon.proved.uniform.mass", 1, ["proved.uniform: ", "'mass' was unexpected"]),
-    (
-        "horizon.tolerance",
-        "1e-9",
-        ["horizon.tolerance: '1e-9' is not", "2.5e+9 and not as 2.5e9"],
-    ),
+    ("figure.width_mm", 17, ["the width must be between 40 and 400 mm, but is 17"]),
 ]
 
 
@@ -108,7 +100,7 @@ def changed(key, value):
 
 
 def leaves(value, where=()):
-    """Places of all numbers, texts and lists of a configuration."""
+    """Keys of all numbers, texts and lists of a configuration."""
     if isinstance(value, dict):
         return [
             leaf
@@ -118,19 +110,14 @@ def leaves(value, where=()):
     return [".".join(where)]
 
 
-def checked(config):
-    check_sections(config, STUDIES)
-    check_config(config, SCHEMA)
-
-
 def refused(config):
     with pytest.raises(ValueError, match=r"\Aconfiguration: [^\n]+\Z") as error:
-        checked(config)
+        check_config(config, STUDIES, SCHEMA)
     return str(error.value)
 
 
 def test_the_papers_configuration_is_accepted():
-    check_config(PAPERS, SCHEMA)
+    check_config(PAPERS, STUDIES, SCHEMA)
     assert [
         Chain.from_slider(**scene_slider(PAPERS, name)).normal_load
         for name in PAPERS["scenes"]
@@ -141,11 +128,12 @@ def test_the_papers_configuration_is_accepted():
         5 / 6,
     ]
     for theta in (-1, 0.5, "5/6"):
-        check_config(changed("scenes.steep", STEEP | {"theta": theta}), SCHEMA)
+        steep = changed("scenes.steep", STEEP | {"theta": theta})
+        check_config(steep, STUDIES, SCHEMA)
 
 
 @pytest.mark.parametrize(("key", "value", "words"), WRONG)
-def test_a_wrong_value_is_named_with_its_place_and_what_it_must_be(key, value, words):
+def test_a_wrong_value_is_named_with_its_place_and_rule(key, value, words):
     line = refused(changed(key, value))
     assert [word for word in words if word not in line] == [], line
 
@@ -156,12 +144,23 @@ def test_every_value_of_the_file_is_checked():
     assert [key for key, line in lines.items() if key.split(".")[-1] not in line] == []
 
 
-def test_a_section_is_checked_by_its_study_and_not_by_names_of_another():
+def test_a_section_is_checked_by_the_keys_of_its_own_study():
     mine = {"step": [1, 2], "noise": "white", "lowest": 1e-5}
-    check_sections(PAPERS | {"mine": mine}, STUDIES | {"mine": mine})
-    check_config(PAPERS | {"mine": mine}, SCHEMA)
-    with pytest.raises(ValueError, match="mine holds 'lower', but must hold names of"):
-        check_sections({"mine": {"lower": 1e-5}}, {"mine": mine})
+    studies = STUDIES | {"mine": mine}
+    check_config(PAPERS | {"mine": mine}, studies, SCHEMA)
+    with pytest.raises(ValueError, match="mine has no key 'lower': did you mean"):
+        check_config(PAPERS | {"mine": {"lower": 1e-5}}, studies, SCHEMA)
+
+
+def test_an_error_names_the_file_with_the_wrong_value():
+    mine = {"noise": {"sede": 1, "runs": 0}}
+    files = {"config.yaml": PAPERS, "mine.yaml": mine}
+    for given, line in (
+        (mine, "mine.yaml: noise has no key 'sede': did you mean 'seed'?"),
+        ({"noise": {"runs": 0}}, "mine.yaml: noise.runs: 0 is less than the minimum"),
+    ):
+        with pytest.raises(ValueError, match=re.escape(line)):
+            load_config(PAPERS | given, files, ROOT / "workflow")
 
 
 @pytest.mark.parametrize(
@@ -173,19 +172,6 @@ def test_a_section_is_checked_by_its_study_and_not_by_names_of_another():
         ),
         ("a:\n\tb: 1\n", "cannot start any token in line 2, column 1"),
         (
-            "a: 010\n",
-            "010 is not plain: write a decimal number, or a text in quotes in line 1, column 4",
-        ),
-        ("a: [1, 1:30]\n", "1:30 is not plain"),
-        ("a: .nan\n", ".nan is not plain"),
-        ("a: 0x10\n", "0x10 is not plain"),
-        ("a: [1_0]\n", "1_0 is not plain"),
-        ("a: 1_0.5\n", "1_0.5 is not plain"),
-        (NESTED, "aliases (*) and merges (<<) are nested too deep"),
-        (NESTED.replace("{<<: [", "[[").replace("]}", "]]"), "are nested too deep"),
-        ("a: &a [*a]\n", "are nested too deep"),
-        ("__use_yte__: true\n", "__use_yte__: write values"),
-        (
             "a: 1e-5\n",
             "1e-5 is text to YAML: write a number as 2.5e+9 and not as 2.5e9",
         ),
@@ -193,7 +179,7 @@ def test_a_section_is_checked_by_its_study_and_not_by_names_of_another():
         ("a: 1\n---\na: 2\n", "but found another document in line 2, column 1"),
     ],
 )
-def test_a_file_that_is_not_plain_yaml_is_refused_with_its_place(tmp_path, text, words):
+def test_a_file_that_is_not_plain_yaml_is_refused(tmp_path, text, words):
     path = tmp_path / "mine.yaml"
     path.write_text(text, encoding="utf-8")
     with pytest.raises(ValueError, match=r"\A[^\n]+mine.yaml[^\n]+\Z") as error:
@@ -202,20 +188,17 @@ def test_a_file_that_is_not_plain_yaml_is_refused_with_its_place(tmp_path, text,
     assert len(str(error.value)) < 400
 
 
-def test_plain_numbers_and_quoted_texts_are_accepted(tmp_path):
+def test_numbers_and_quoted_texts_are_accepted(tmp_path):
     path = tmp_path / "mine.yaml"
-    path.write_text(
-        """a: [0, -1, 0.5, 2.5e+9, 1000, "010", '1:30', text, true]\n""",
-        encoding="utf-8",
-    )
-    read_file(path)
+    path.write_text("""a: [0, -1, 0.5, 2.5e+9, "1e-5", text, true]\n""")
+    assert read_file(path)["a"] == [0, -1, 0.5, 2.5e9, "1e-5", "text", True]
 
 
-def test_measured_normal_loads_are_those_of_the_blocks_from_a_list_or_a_file(tmp_path):
+def test_measured_normal_loads_come_from_a_list_or_a_file(tmp_path):
     (tmp_path / "loads.csv").write_text("30\n40\n50\n")
     for weights in (MEASURED["weights"], str(tmp_path / "loads.csv")):
         config = changed("scenes.steep", MEASURED | {"weights": weights})
-        check_config(config, SCHEMA)
+        check_config(config, STUDIES, SCHEMA)
         chain = Chain.from_slider(**scene_slider(config, "steep"))
         assert chain.weights.tolist() == [30.0, 40.0, 50.0]
         slider = scene_slider(config, "steep")
@@ -223,10 +206,12 @@ def test_measured_normal_loads_are_those_of_the_blocks_from_a_list_or_a_file(tmp
         assert math.isnan(slider["theta"])
 
 
-def test_numbers_of_the_chain_may_be_text_as_in_config_of_the_command_line():
-    read = read_numbers(
-        {"n_blocks": "12", "youngs_modulus": "3e9", "mu_s": 0.7, "mu_k": "low"}
-    )
-    assert read == {"n_blocks": 12, "youngs_modulus": 3e9, "mu_s": 0.7, "mu_k": "low"}
-    assert isinstance(read["n_blocks"], int)
-    assert read_numbers(5) == 5
+def test_numbers_of_the_chain_may_be_text_on_the_command_line():
+    given = changed("chain.n_blocks", "12")
+    given["chain"]["youngs_modulus"] = "3e9"
+    chain = load_config(given, {}, ROOT / "workflow")["chain"]
+    assert (chain["n_blocks"], chain["youngs_modulus"]) == (12, 3e9)
+    assert isinstance(chain["n_blocks"], int)
+    given["chain"]["mu_k"] = "low"
+    with pytest.raises(ValueError, match=r"chain.mu_k: 'low' is not of type 'number'"):
+        load_config(given, {}, ROOT / "workflow")

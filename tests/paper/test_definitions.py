@@ -1,11 +1,35 @@
-"""The table of definitions tells which readings give the paper's numbers."""
+"""Numbers of a slip table under readings of the paper's words, and the readings that give
+the paper's numbers."""
 
 import pandas as pd
 import pytest
 
-from maegawa2010.paper.definitions import OF_SCENES, definitions_table
+from maegawa2010.paper.definitions import OF_SCENES, Reading, definitions_table
 from precursors import Chain, simulate
+from precursors.analysis.summary import summary_of
 
+# One quotient of doubles.
+ROUNDING = 1e-15
+# Front, blocks that slid, most at the same time, and load before and after, for five
+# events of a chain of three blocks.
+EVENTS = pd.DataFrame(
+    [
+        (2, 2, 1, 9.0, 8.0),
+        (1, 1, 1, 10.0, 9.5),
+        (2, 2, 2, 11.0, 8.0),
+        (3, 3, 2, 12.0, 10.0),
+        (3, 3, 3, 11.0, 5.0),
+    ],
+    columns=["front", "n_slid", "n_simultaneous", "load_before_N", "load_after_N"],
+)
+EVENTS = EVENTS.assign(
+    onset_s=EVENTS.index,
+    end_s=EVENTS.index,
+    largest_load_N=EVENTS["load_before_N"].cummax(),
+    is_global=EVENTS["n_simultaneous"] == 3,
+    n_blocks=3,
+    normal_load_N=20.0,
+)
 SLIDER = {"n_blocks": 10, "mu_s": 0.70, "mu_k": 0.45, "normal_load": 400.0}
 PAPER = [{"events_counted": counted, "mu_sapp": 0.49} for counted in (6, 9, 14)]
 
@@ -23,7 +47,7 @@ def table() -> pd.DataFrame:
     return tabulate(3.0, [5.0, 10.0])
 
 
-def test_each_reading_differs_from_ours_in_the_one_thing_that_is_changed(table):
+def test_each_reading_differs_from_ours_in_one_respect(table):
     columns = ["degree", "switching", "global_slip", "short", "front"]
     changed = {
         "global_slip": 3,
@@ -42,7 +66,7 @@ def test_each_reading_differs_from_ours_in_the_one_thing_that_is_changed(table):
     )
 
 
-def test_the_readings_that_give_six_numbers_are_ours_and_three_others(table):
+def test_four_readings_have_all_six_numbers_of_the_paper(table):
     six = table[table["numbers_within_a_digit"] == 6].iloc[::3]
     assert six[
         ["changed", "global_slip", "front", "switching"]
@@ -65,3 +89,25 @@ def test_a_reading_without_a_global_slip_has_empty_numbers():
     few = tabulate(0.4, [], [{}, {}, {}])
     assert few["mu_sapp"].isna().all()
     assert not few["numbers_within_a_digit"].any()
+
+
+@pytest.mark.parametrize(
+    ("reading", "events", "counted", "mu_sapp"),
+    [
+        (Reading(), 5, 4, 0.6),
+        (Reading(global_slip="each"), 4, 3, 0.6),
+        (Reading(global_slip=2.5), 3, 2, 0.55),
+        (Reading(short="not longer"), 5, 2, 0.6),
+        (Reading(short="shorter than the last"), 5, 4, 0.6),
+        (
+            Reading(global_slip="each", front="n_simultaneous", short="not longer"),
+            4,
+            2,
+            0.6,
+        ),
+    ],
+)
+def test_a_reading_selects_global_and_short_events(reading, events, counted, mu_sapp):
+    summary = summary_of(reading.read(EVENTS))
+    assert (summary.events_to_global_slip, summary.events_counted) == (events, counted)
+    assert summary.mu_sapp == pytest.approx(mu_sapp, rel=ROUNDING)

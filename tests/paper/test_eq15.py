@@ -1,4 +1,4 @@
-"""Every check of Eq. 15 fails where the equation or the chain it is about is broken."""
+"""Every check of Eq. 15 fails if the equation or the chain is changed."""
 
 from dataclasses import replace
 
@@ -9,11 +9,11 @@ from maegawa2010.paper import eq15
 from precursors import Chain, simulate
 
 CHAIN = Chain.from_slider()
-# Times of mu_s F_Z in double precision.
+# Relative rounding of mu_s F_Z in double precision.
 ROUNDING = 1e-12
 
 
-def test_the_load_of_a_rigid_slider_is_that_of_the_closed_form():
+def test_the_load_of_a_rigid_slider_has_its_closed_form():
     """One block with mu_s = mu_k: at most F_X = mu_k F_Z + V sqrt(K M)."""
     block = replace(Chain.from_slider(n_blocks=1), mu_s=0.45)
     speed = 2.0
@@ -21,11 +21,11 @@ def test_the_load_of_a_rigid_slider_is_that_of_the_closed_form():
     assert eq15.largest_load(block, speed) == pytest.approx(closed, rel=1e-6)
 
 
-# Each check on something broken.
+# Checks of changed equations and chains
 
 
 def test_the_state_of_eq_12_is_at_the_limit():
-    """From maximal strain on all blocks are at their limits at the onset of the first
+    """From maximal strain, all blocks are at their limits at the onset of the first
     slip."""
     start = eq15.maximal_strain_positions(CHAIN)
     strained = simulate(CHAIN, 0.001, start_positions=start)
@@ -45,7 +45,7 @@ def test_the_state_of_eq_12_is_at_the_limit():
         ),
     ],
 )
-def test_the_states_of_rest_see_a_broken_part(monkeypatch, name, broken):
+def test_the_check_at_rest_fails_for_a_broken_part(monkeypatch, name, broken):
     assert eq15.at_rest("fig10", CHAIN).holds
     monkeypatch.setattr(eq15, name, broken)
     assert not eq15.at_rest("fig10", CHAIN).holds
@@ -59,7 +59,7 @@ def test_the_states_of_rest_see_a_broken_part(monkeypatch, name, broken):
         ("mu_k", 0.5, ["fast"]),
     ],
 )
-def test_the_motion_sees_another_chain_than_the_one_it_is_about(
+def test_the_checks_of_motion_fail_for_another_chain(
     monkeypatch, name, factor, failing
 ):
     def of_another(chain, *arguments, **options):

@@ -1,4 +1,4 @@
-"""The paper's numbers, and the residual strain, from what they are defined by."""
+"""The table of the paper's numbers, and the residual strain in known states."""
 
 import math
 
@@ -8,11 +8,11 @@ from maegawa2010.paper.scene_numbers import reproduction_table, residual_strain
 from precursors import Chain, find_slips, simulate, slip_table
 from precursors.model.statics import maximal_strain_positions
 
-# Sums and quotients of ten numbers in double precision.
+# Rounding of sums and quotients of ten numbers in double precision.
 ROUNDING = 1e-12
 
 
-def test_the_residual_strain_of_eq_12_is_the_largest():
+def test_the_residual_strain_of_eq_12_is_one():
     chain = Chain.from_slider(theta="5/6")
     run = simulate(chain, 0.001, start_positions=maximal_strain_positions(chain))
     assert residual_strain(run) == pytest.approx(1.0, rel=ROUNDING)

@@ -9,15 +9,7 @@ from fractions import Fraction
 
 import pytest
 from benchmark.made_up import tied_certificate
-from places import CERTIFICATES
-from settings import CONFIG
 
-from maegawa2010.studies.horizon.chains import (
-    chain_duration,
-    exact_chain,
-    is_about,
-    scene_exact_chain,
-)
 from precursors.proof import (
     Certificate,
     CertificateError,
@@ -28,23 +20,7 @@ from precursors.proof import (
     verify,
 )
 
-CHAINS = CONFIG["horizon"]["proved"]
-# A committed certificate is smaller [bytes].
-LARGEST_FILE = 300_000
 SLIDER = ExactChain.from_slider
-
-
-@pytest.mark.parametrize("name", CHAINS)
-def test_the_committed_certificates_are_about_the_chains_of_the_configuration(
-    name,
-):
-    certificate = Certificate.load(CERTIFICATES / f"{name}.json.gz")
-    chain = exact_chain(name, CHAINS[name])
-    duration = chain_duration(CHAINS[name])
-    assert is_about(certificate, chain, duration)
-    assert not is_about(certificate, chain, 2 * duration)
-    assert not is_about(certificate, dataclasses.replace(chain, mu_k=0), duration)
-    assert (CERTIFICATES / f"{name}.json.gz").stat().st_size < LARGEST_FILE
 
 
 @pytest.fixture(scope="module")
@@ -143,27 +119,6 @@ def test_an_end_that_is_not_found_is_refused(small):
     ):
         with pytest.raises(CertificateError, match=words):
             verify(wrong)
-
-
-def test_theta_of_a_scene_is_not_rounded():
-    config = {
-        "chain": {"n_blocks": 10, "normal_load": 400.0, "length": 0.1},
-        "load_cells": {"spacing": 0.06},
-        "scenes": {
-            "cells": {"load_cell_a": 100.0, "load_cell_b": 300.0},
-            "fraction": {"theta": "5/6"},
-        },
-    }
-    for name in config["scenes"]:
-        assert scene_exact_chain(config, name) == SLIDER(theta="5/6")
-
-
-def test_a_scene_with_measured_loads_is_not_proved():
-    config = {"chain": {}, "scenes": {"measured": {"weights": [30.0, 40.0, 50.0]}}}
-    with pytest.raises(
-        ValueError, match=r"^scenes\.measured must have .* has weights$"
-    ):
-        scene_exact_chain(config, "measured")
 
 
 def test_one_block_has_the_whole_load_whatever_theta_is():

@@ -1,11 +1,11 @@
-"""Runs made up for tests by hand."""
+"""Tables of made-up runs."""
 
 import pandas as pd
 
 
 def runs_of(events_counted: list[int], **mu_sapp: list[float]) -> pd.DataFrame:
-    """Runs of scenes with these mu_sapp, NaN for a run without a global slip; draw 0 is
-    the scene."""
+    """Runs with given mu_sapp by scene, NaN without a global slip; draw 0 is the scene
+    itself."""
     draws = {"draw": range(len(events_counted)), "events_counted": events_counted}
     same = {
         "theta": 0.0,

@@ -1,5 +1,6 @@
-"""The rows of a study are those of its runs one by one, however it is cut into
-chunks."""
+"""The rows of a study equal those of single runs and do not depend on the chunks."""
+
+import math
 
 import numpy as np
 import pandas as pd
@@ -13,7 +14,7 @@ from maegawa2010.studies.members import (
     gather,
 )
 from maegawa2010.studies.noise.tables import noise_study
-from maegawa2010.studies.runs import run_members
+from maegawa2010.studies.runs import run_members, speedup
 from precursors import simulate
 from precursors.analysis.summary import summarise
 from precursors.support.files import read_table, write_table
@@ -43,7 +44,7 @@ def chunks_of(study: Study, n: int, directory) -> list:
 
 
 def one_by_one(study: Study) -> pd.DataFrame:
-    """Summaries of the members of a study, each run alone."""
+    """Summaries of the members of a study, each simulated alone."""
     runs = []
     for member in study.members.to_dict("records"):
         runs.append(
@@ -52,20 +53,18 @@ def one_by_one(study: Study) -> pd.DataFrame:
     return summarise(runs)
 
 
-def assert_rows(found: pd.DataFrame, expected: np.ndarray) -> None:
+def assert_rows(rows: pd.DataFrame, expected: np.ndarray) -> None:
     for name in expected:
-        np.testing.assert_array_equal(found[name], expected[name], err_msg=name)
+        np.testing.assert_array_equal(rows[name], expected[name], err_msg=name)
 
 
-def test_every_row_is_that_of_its_run_alone_to_the_last_bit(noise, rows):
+def test_every_row_equals_that_of_a_single_run(noise, rows):
     some = noise.chunk(1, 7)
     assert_rows(rows.loc[some.members.index], one_by_one(some))
 
 
 @pytest.mark.parametrize("n", [2, 5])
-def test_the_gathered_table_is_the_same_to_the_last_bit_however_a_study_is_cut(
-    noise, rows, n, tmp_path
-):
+def test_the_joined_table_does_not_depend_on_the_chunks(noise, rows, n, tmp_path):
     chunks = chunks_of(noise, n, tmp_path)
     table = gather(chunks[::-1])
     pd.testing.assert_frame_equal(table, rows[list(table)], check_exact=True)
@@ -77,7 +76,7 @@ def test_more_chunks_than_members_leave_some_empty(noise, tmp_path):
     assert len(gather(chunks_of(few, 3, tmp_path))) == 2
 
 
-def test_a_missing_and_a_doubled_chunk_are_noticed(noise, tmp_path):
+def test_a_missing_or_doubled_chunk_is_refused(noise, tmp_path):
     few = Study(noise.members.iloc[:4], noise.seed)
     a, b = chunks_of(few, 2, tmp_path)
     for chunks in ([a], [b], [a, a], [a, b, b]):
@@ -85,7 +84,7 @@ def test_a_missing_and_a_doubled_chunk_are_noticed(noise, tmp_path):
             gather(chunks)
 
 
-def test_members_are_run_with_their_own_number_of_blocks_noise_and_duration():
+def test_members_have_their_own_blocks_noise_and_duration():
     table = {
         "n_blocks": [4, 4, 6],
         "theta": 0.0,
@@ -98,21 +97,19 @@ def test_members_are_run_with_their_own_number_of_blocks_noise_and_duration():
     assert_rows(run_members(study), one_by_one(study))
 
 
-def test_a_member_that_meets_the_limit_of_transitions_is_kept_as_far_as_it_came(
-    noise, rows, monkeypatch
-):
+def test_a_member_at_the_limit_of_transitions_has_its_part(noise, rows, monkeypatch):
     def capped(chains, duration, until, threads):
         return [
             simulate(chain, duration, until, max_transitions=100) for chain in chains
         ]
 
     monkeypatch.setattr("maegawa2010.studies.runs.simulate_many", capped)
-    found = run_members(Study(noise.members.query("scene == 'fig12'"), noise.seed))
-    longer = rows.loc[found.index, "transitions"] > 100
+    cut = run_members(Study(noise.members.query("scene == 'fig12'"), noise.seed))
+    longer = rows.loc[cut.index, "transitions"] > 100
     assert (
-        found["transitions"] == rows.loc[found.index, "transitions"].clip(upper=100)
+        cut["transitions"] == rows.loc[cut.index, "transitions"].clip(upper=100)
     ).all()
-    assert (found["global_slip_end_s"].isna() == longer).all()
+    assert (cut["global_slip_end_s"].isna() == longer).all()
     assert longer.sum() > 0
 
 
@@ -126,3 +123,21 @@ def test_a_larger_ensemble_contains_the_smaller(noise):
         assert [chain_of(member, 1) for member in small] == [
             chain_of(member, 1) for member in large
         ]
+
+
+@pytest.mark.parametrize(
+    ("fronts", "expected"),
+    [
+        ([1, 4, 7, 9, 10], (3 / 20) / (6 / 20)),
+        ([1, 4, 9, 7, 10], (3 / 10) / (6 / 30)),  # with a shorter event
+        ([1, 4, 7, 9, 9], math.nan),  # the whole length is not reached
+        ([7, 7, 7, 10, 10], math.nan),  # no rise up to the kink
+    ],
+)
+def test_growth_beyond_the_kink_uses_counted_events(fronts, expected):
+    loads = np.arange(10.0, 60.0, 10.0)
+    slips = pd.DataFrame({"front": fronts, "load_before_N": loads, "n_blocks": 10})
+    slips = slips.assign(counted=True, is_global=True)
+    assert speedup(slips.to_records(index=False)) == pytest.approx(
+        expected, nan_ok=True
+    )

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from precursors.solver import kernel
-from precursors.support.compiled import KEPT, checksum
+from precursors.support.compiled import CACHED_VERSIONS, checksum
 
 KERNEL = Path(kernel.__file__).parent
 PATIENCE = 300.0  # s: a start takes some seconds, far more only if it hangs
@@ -100,7 +100,7 @@ def test_another_clone_of_the_user_compiles_nothing_until_an_edit_and_old_code_i
     clone.write("part.py", PART.replace("3 * x", "5 * x"))
     assert clone.use() == (11, 0, SAID)
     (edited,) = set(small.cache.glob("precursors/*")) - {place}
-    others = [place.with_name(f"small-{i}") for i in range(KEPT + 1)]
+    others = [place.with_name(f"small-{i}") for i in range(CACHED_VERSIONS + 1)]
     for i, other in enumerate(others):
         other.mkdir()
         os.utime(other, (i, i))

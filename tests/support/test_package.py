@@ -17,7 +17,7 @@ from precursors.support.checkout import git_state
 # The compiler, and what only simulations and tables need.
 HEAVY = {"numba", "h5py", "pandas"}
 # What the rules of the workflow import.
-RULES = "from maegawa2010.paper import inputs, shown"
+RULES = "from maegawa2010.paper import documents, inputs"
 
 
 def loaded(program: str) -> set[str]:
@@ -72,7 +72,7 @@ def test_the_library_works_without_its_extras():
     loaded(
         f"sys.modules.update(dict.fromkeys({absent!r}))\n"
         "from precursors import Chain, audit, find_slips, simulate\n"
-        "import precursors.cli, maegawa2010.studies.models.models\n"
+        "import precursors.cli, maegawa2010.studies.models.answers\n"
         "import maegawa2010.studies.members, maegawa2010.methods\n"
         "import precursors.figures.scene, precursors.figures.precursor_lengths\n"
         "try: precursors.certify(Chain.from_slider(), 1)\n"

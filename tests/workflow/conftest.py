@@ -1,4 +1,4 @@
-"""Copies of the workflow that tests share, or have to themselves."""
+"""Copies of the workflow: shared by tests, or one for each test."""
 
 import shutil
 from pathlib import Path
@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from workflow_copy import Outcome, Workspace, copy_workflow
 
-# A scene beside the paper's.
+# A scene in addition to the paper's.
 MORE_SCENE = """\
   steep:
     title: nearly all of the load at the leading edge
@@ -17,7 +17,7 @@ MORE_SCENE = """\
 
 @pytest.fixture
 def workspace(tmp_path: Path) -> Workspace:
-    """A copy of the workflow that has not been run."""
+    """A copy of the workflow without results."""
     return copy_workflow(tmp_path / "copy")
 
 
@@ -33,7 +33,7 @@ def _finished(tmp_path_factory: pytest.TempPathFactory) -> Workspace:
 
 @pytest.fixture(scope="session")
 def untouched(tmp_path_factory: pytest.TempPathFactory) -> tuple[Workspace, Outcome]:
-    """A copy of the workflow that has not been run, and what `snakemake -n all` says;
+    """A copy of the workflow without results, and the output of `snakemake -n all`;
     shared by tests."""
     workspace = copy_workflow(tmp_path_factory.mktemp("untouched") / "copy")
     return workspace, workspace.run("-n", "all")
@@ -41,7 +41,7 @@ def untouched(tmp_path_factory: pytest.TempPathFactory) -> tuple[Workspace, Outc
 
 @pytest.fixture
 def finished(_finished: Workspace, tmp_path: Path) -> Workspace:
-    """A copy of the workflow with MORE_SCENE, run to the end with stand-ins for what
-    the scripts compute."""
+    """A copy of the workflow with MORE_SCENE and placeholders for all results, so that
+    nothing is left to do."""
     shutil.copytree(_finished.path, tmp_path / "copy")
     return Workspace(tmp_path / "copy")

@@ -1,5 +1,5 @@
-"""Snakemake refuses a wrong configuration or directory in one line, and touches
-nothing."""
+"""Snakemake refuses a wrong configuration or directory in one line, and changes no
+file."""
 
 import sys
 
@@ -12,6 +12,11 @@ from precursors import Run
     ("old", "new", "words"),
     [
         ("mu_k: 0.45", "mu_k: 0.8", "configuration: chain: "),
+        (
+            "    title: uniform",
+            "    titel: uniform",
+            "config.yaml: scenes.fig10 has no key 'titel': did you mean 'title'?",
+        ),
         (
             "figure: {}",
             "figure: {width_mm: 17}",
@@ -41,10 +46,8 @@ def test_a_wrong_configuration_is_refused_in_one_line(finished, old, new, words)
     assert finished.results() == before
 
 
-def test_a_python_behind_a_space_runs_jobs_with_loads_that_lie_beside_their_configuration(
-    workspace, monkeypatch
-):
-    """And with values of the command line."""
+def test_paths_with_spaces_and_loads_beside_the_config_work(workspace, monkeypatch):
+    """Values of the command line apply, too."""
     place = workspace.path / "Büro Müller"
     place.mkdir()
     python = place / "python"

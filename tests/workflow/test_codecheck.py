@@ -1,4 +1,4 @@
-"""What an independent check compares, and which differences it allows."""
+"""The files that an independent check compares, and the differences that it allows."""
 
 from pathlib import Path
 
@@ -11,7 +11,7 @@ from matplotlib import image
 from places import ROOT
 
 
-def test_every_file_that_is_compared_has_a_comment_and_is_made(untouched):
+def test_every_compared_file_has_a_comment_and_is_made(untouched):
     text = (ROOT / "codecheck.yml").read_text(encoding="utf-8")
     manifest = yaml.safe_load(text)["manifest"]
     files = {entry["file"] for entry in manifest if entry["comment"]}
@@ -54,9 +54,9 @@ def test_a_number_may_differ_by_the_tolerance_of_its_unit(
 ):
     expected = write_rows(tmp_path / "golden.csv", **golden)
     made = write_rows(tmp_path / "made.csv", **golden | {column: values})
-    found = codecheck.difference(made, expected)
-    assert found.startswith(problem)
-    assert bool(found) == bool(problem)
+    difference = codecheck.difference(made, expected)
+    assert difference.startswith(problem)
+    assert bool(difference) == bool(problem)
 
 
 @pytest.mark.parametrize(
@@ -73,11 +73,11 @@ def test_a_picture_may_differ_by_half_a_grey_level(tmp_path, place, grey, is_sam
     pixels[place] = grey
     image.imsave(tmp_path / "made.png", pixels)
     image.imsave(tmp_path / "cut.png", pixels[1:])
-    found = [
+    differences = [
         codecheck.difference(tmp_path / name, tmp_path / "golden.png")
         for name in ("made.png", "cut.png")
     ]
-    assert found == ["" if is_same else "another picture", "another picture"]
+    assert differences == ["" if is_same else "another picture", "another picture"]
 
 
 def test_each_file_has_a_line_and_one_that_differs_fails(tmp_path, monkeypatch, capsys):
@@ -89,5 +89,5 @@ def test_each_file_has_a_line_and_one_that_differs_fails(tmp_path, monkeypatch, 
     (tmp_path / "codecheck.yml").write_text("manifest: [{file: a.svg}, {file: b.svg}]")
     with pytest.raises(SystemExit) as ended:
         codecheck.main()
-    told = "a.svg: the same\nb.svg: another picture\n1 of 2 files are the same\n"
-    assert (ended.value.code, capsys.readouterr().out) == (True, told)
+    report = "a.svg: the same\nb.svg: another picture\n1 of 2 files are the same\n"
+    assert (ended.value.code, capsys.readouterr().out) == (True, report)

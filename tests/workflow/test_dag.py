@@ -1,25 +1,26 @@
-"""What is run: every job once, and after an edit only what the edit touches."""
+"""The jobs that run: at first all, and after an edit those that depend on it."""
 
+import re
 from collections import Counter
+from itertools import product
 
 import pytest
+from places import ROOT
 
 PAPERS = {"simulate_scene fig10", "simulate_scene fig11", "simulate_scene fig12"}
-# Rules that `all` leaves out, and write_provenance, which conftest leaves out of all
-# lists of jobs.
+# Rules that `all` does not need, and write_provenance, which `Outcome.jobs` leaves out.
 ON_DEMAND = {"certify_scene", "prove_again", "write_provenance"}
-# The paper shows nearly all tables and figures, and is set again when one of them may
-# change.
+# The paper depends on nearly all tables and figures.
 PAPER = {"write_paper"}
 LISTS_OF_SCENES = {"mu_sapp", "judge_claims"} | PAPER
-CODE = "\nADDED = 1\n"  # to a module
+CODE = "\nADDED = 1\n"  # appended to a module
 
 
 def scene(name: str, line: str) -> str:
     return f'  {name}:\n    title: nearly all at the leading edge\n    theta: "9/10"\n    {line}\n'
 
 
-def test_a_dry_run_lists_every_job_of_the_paper_and_writes_nothing(untouched):
+def test_a_dry_run_lists_the_papers_jobs_and_writes_nothing(untouched):
     workspace, outcome = untouched
     assert outcome.code == 0, outcome.text
     assert outcome.jobs >= PAPERS
@@ -27,7 +28,27 @@ def test_a_dry_run_lists_every_job_of_the_paper_and_writes_nothing(untouched):
     assert workspace.results() == {}
 
 
-def test_words_format_and_touch_run_nothing_again(finished):
+def test_the_arrows_in_readme_are_those_of_the_rule_graph(untouched):
+    workspace, _ = untouched
+    graph = workspace.run("--rulegraph", "mermaid-js", "all").text
+    rules = dict(re.findall(r"(id\d+)\[(\w+)\]", graph))
+    real = {
+        (rules[start], rules[end])
+        for start, end in re.findall(r"(id\d+) --> (id\d+)", graph)
+    }
+    (shown,) = re.findall(
+        r"```mermaid\n(.*?)```", (ROOT / "README.md").read_text(), re.S
+    )
+    arrows = {
+        arrow
+        for starts, ends in re.findall(r" +(.+) --> (.+)", shown)
+        for arrow in product(starts.split(" & "), ends.split(" & "))
+    }
+    assert len(arrows) > 10
+    assert arrows - real == set()
+
+
+def test_comments_format_and_touch_run_nothing_again(finished):
     before = finished.results()
     for file in [
         *finished.path.glob("src/**/*.py"),
@@ -67,9 +88,7 @@ def test_results_that_were_deleted_are_made_again(finished):
         ("precursors/solver/kernel/events", PAPERS | {"run_noise"}, set()),
     ],
 )
-def test_an_edit_of_a_module_runs_what_computes_with_it_and_nothing_else(
-    finished, module, run, left
-):
+def test_an_edit_of_a_module_runs_only_jobs_that_import_it(finished, module, run, left):
     finished.edit(f"src/{module}.py", "", CODE)
     jobs = finished.would_run()
     assert run <= jobs
@@ -92,9 +111,7 @@ def test_an_edit_of_a_module_runs_what_computes_with_it_and_nothing_else(
         ),
     ],
 )
-def test_an_edit_of_the_paper_and_of_the_configuration_runs_what_reads_it(
-    finished, old, new, jobs
-):
+def test_an_edit_of_paper_or_configuration_runs_what_reads_it(finished, old, new, jobs):
     finished.edit("paper/paper.typ", "", "\n// edited\n")
     finished.edit("config.yaml", old, new)
     assert finished.would_run() == jobs | PAPER
@@ -103,7 +120,7 @@ def test_an_edit_of_the_paper_and_of_the_configuration_runs_what_reads_it(
 def test_four_lines_make_a_new_scene_of_any_name(finished):
     finished.add_scenes(
         scene("fig10_slips", "duration: 1.0")
-    )  # looks like the name of a table
+    )  # a name like that of a table
     new = {"simulate_scene fig10_slips", "draw_scene fig10_slips"}
     assert finished.would_run() == new | LISTS_OF_SCENES
 
@@ -113,12 +130,11 @@ def test_larger_studies_are_an_overlay_of_the_configuration(finished):
         "-n", "--configfile", "config.yaml", "workflow/full.yaml", "--", "all"
     )
     assert outcome.code == 0, outcome.text
-    longer = {"tabulate_work_precision", "tabulate_step_sweep"}
-    assert longer <= outcome.jobs
+    assert "tabulate_work_precision" in outcome.jobs
     assert not {"simulate_scene fig10", "mu_sapp"} & outcome.jobs
 
 
-def test_a_configuration_without_the_papers_scenes_has_no_claims_and_no_paper(
+def test_without_the_papers_scenes_there_is_no_paper(
     workspace,
 ):
     workspace.edit("config.yaml", "  fig12:\n    title", "  mine:\n    title")
@@ -130,7 +146,7 @@ def test_a_configuration_without_the_papers_scenes_has_no_claims_and_no_paper(
     assert not {"judge_claims", "write_paper"} & jobs
 
 
-def test_an_interrupted_study_goes_on_where_it_was_and_an_edit_renews_what_it_touches(
+def test_an_interrupted_study_continues_and_an_edit_reruns_it(
     finished,
 ):
     digits = "digits_members"

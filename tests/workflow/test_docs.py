@@ -1,4 +1,4 @@
-"""What docs/ shows works: its code runs in a copy of the repository."""
+"""The examples in docs/ work: their code runs in a copy of the repository."""
 
 import ast
 import os
@@ -10,10 +10,13 @@ import sys
 from textwrap import dedent
 
 import pytest
+import write_paper
 from colours import SIGHTS, alike
-from places import ROOT
+from pdf_text import pages_of
+from places import GOLDEN, RESULTS, ROOT, made
 from workflow_copy import copy_workflow
 
+from maegawa2010.paper.documents import cited_results
 from precursors import cli
 
 DOCS = ROOT / "docs"
@@ -23,8 +26,7 @@ BLOCK = re.compile(r"^```(\w+)\n(.*?)^```", flags=re.MULTILINE | re.DOTALL)
 
 
 def blocks(section):
-    """Language, name of the file if there is one, and text of the blocks of a section
-    of adding.md."""
+    """Language, file name (or None) and text of each block of a section of adding.md."""
     text = (DOCS / "adding.md").read_text(encoding="utf-8")
     (body,) = [
         part for part in text.split("\n## ")[1:] if part.startswith(f"{section}\n")
@@ -34,12 +36,20 @@ def blocks(section):
         yield language, named and named[1], code[named.end() :] if named else code
 
 
-SECTIONS = ("A scene", "A study", "A model", "A method", "Within another workflow")
+CLAIM = "A claim, and a number in the paper"
+SECTIONS = (
+    "A scene",
+    "A study",
+    "A model",
+    "A method",
+    CLAIM,
+    "Within another workflow",
+)
 
 
 @pytest.fixture(scope="module")
 def documented(tmp_path_factory):
-    """A copy of the workflow with the new files and the changes of all sections."""
+    """A copy of the workflow with the new files and changes of all sections."""
     workspace = copy_workflow(tmp_path_factory.mktemp("documented") / "copy")
     for language, name, code in (
         block for section in SECTIONS for block in blocks(section)
@@ -50,7 +60,9 @@ def documented(tmp_path_factory):
                 "".join(line[1:] for line in lines if line[0] in signs)
                 for signs in (" -", " +")
             )
-            workspace.edit(name, old, new)
+            # A reader may have applied it to this repository.
+            if new not in (workspace.path / name).read_text(encoding="utf-8"):
+                workspace.edit(name, old, new)
         elif name:
             (workspace.path / name).parent.mkdir(parents=True, exist_ok=True)
             (workspace.path / name).write_text(code, encoding="utf-8")
@@ -58,16 +70,16 @@ def documented(tmp_path_factory):
 
 
 def command(section):
-    (found,) = [
+    (words,) = [
         code.split() for language, _, code in blocks(section) if language == "sh"
     ]
-    return found[1:]
+    return words[1:]
 
 
-def test_the_scene_and_the_study_shown_are_made(documented):
-    planned = documented.run("-n", "--forceall", *command("A scene"), "all")
-    wanted = {"simulate_scene steep", "draw_scene steep", "draw_durations"}
-    assert wanted <= planned.jobs
+def test_the_example_scene_and_study_are_built(documented):
+    planned = documented.run("-n", *command("A scene"))
+    assert planned.jobs == {"simulate_scene steep", "draw_scene steep"}, planned.text
+    assert "draw_durations" in documented.would_run()
     (documented.path / "results/tables").mkdir(parents=True)
     slips = ROOT / "tests/golden/fig10_slips.csv"
     shutil.copy(slips, documented.path / "results/tables")
@@ -76,8 +88,22 @@ def test_the_scene_and_the_study_shown_are_made(documented):
     assert (documented.path / "results/figures/durations.svg").is_file()
 
 
-# The test of the study shown, a chart of the method shown, its points in it, and the
-# colours of its line and of other methods.
+def test_a_study_is_removed_by_the_commands_shown(workspace):
+    (commands,) = [code for _, _, code in blocks("Removing a study")]
+    shutil.copytree(
+        ROOT / "tests/studies",
+        workspace.path / "tests/studies",
+        ignore=shutil.ignore_patterns("__pycache__"),
+    )
+    subprocess.run("sh", input=commands, text=True, cwd=workspace.path)
+    assert list(workspace.path.rglob("*step_sweep*")) == []
+    jobs = workspace.would_run()
+    assert "write_paper" in jobs
+    assert "tabulate_step_sweep" not in jobs
+
+
+# Run the test of the example study, draw a chart with the example method, and print its
+# number of points, the colour of its line, and the colours of other methods.
 MORE = """
 from runpy import run_path
 run_path("tests/studies/durations/test_durations.py")["test_short_slips_are_left_out"]()
@@ -97,12 +123,12 @@ print(*(row["color"] for name, row in ROWS.items() if name != "scipy_rk23"))
 """
 
 
-def test_the_test_shown_passes_model_and_method_give_what_is_shown_and_this_has_a_colour_of_its_own(
+def test_the_example_model_and_method_print_what_docs_show(
     documented,
 ):
-    found = [block for of in ("A model", "A method") for block in blocks(of)]
+    examples = [block for of in ("A model", "A method") for block in blocks(of)]
     programs = [
-        code for language, name, code in found if language == "python" and not name
+        code for language, name, code in examples if language == "python" and not name
     ]
     done = subprocess.run(
         [sys.executable, "-c", "\n".join([*programs, MORE])],
@@ -113,7 +139,7 @@ def test_the_test_shown_passes_model_and_method_give_what_is_shown_and_this_has_
         check=True,
     )
     *lines, drawn, others = done.stdout.splitlines()
-    shown = "".join(code for language, _, code in found if language == "text")
+    shown = "".join(code for language, _, code in examples if language == "text")
     assert lines == shown.splitlines()
     points, color = drawn.split()
     assert int(points) == 2
@@ -122,7 +148,35 @@ def test_the_test_shown_passes_model_and_method_give_what_is_shown_and_this_has_
     assert done.stderr == ""
 
 
-def test_the_workflow_shown_uses_this_one_as_a_module(documented):
+def test_the_example_claim_is_evaluated_and_set_in_the_paper(
+    documented, tmp_path, monkeypatch
+):
+    texts = {language: code for language, name, code in blocks(CLAIM) if not name}
+    checked = subprocess.run(
+        [
+            sys.executable,
+            "workflow/scripts/check_claims.py",
+            RESULTS,
+            GOLDEN / "claims.csv",
+        ],
+        cwd=documented.path,
+        env=os.environ | {"PYTHONPATH": str(documented.path / "src")},
+        capture_output=True,
+        text=True,
+    )
+    assert (checked.returncode, checked.stderr) == (1, texts["text"])
+    source = documented.path / "paper/mine.typ"
+    source.write_text(f'#import "lib.typ": *\n{texts["typst"]}', encoding="utf-8")
+    monkeypatch.chdir(ROOT)
+    write_paper.main(source, cited_results(source), tmp_path / "mine.pdf")
+    (load,) = made("reproduction").query(
+        "scene == 'fig10' and quantity == 'global_slip_load_N'"
+    )["reproduced"]
+    (page,) = pages_of((tmp_path / "mine.pdf").read_bytes())
+    assert page.startswith(f"At {load:.1f} N")
+
+
+def test_the_example_workflow_uses_this_one_as_a_module(documented):
     outer = type(documented)(documented.path / "elsewhere", "../src")
     outcome = outer.run("-c1")
     assert outcome.code == 0, outcome.text
@@ -132,17 +186,17 @@ def test_the_workflow_shown_uses_this_one_as_a_module(documented):
     ) == pytest.approx(2.8)
 
 
-def test_what_the_page_on_changes_shows_works(workspace, monkeypatch, capsys):
-    found: dict[str, list[str]] = {}
+def test_the_examples_of_the_page_on_changes_work(workspace, monkeypatch, capsys):
+    examples: dict[str, list[str]] = {}
     for language, code in BLOCK.findall(
         (DOCS / "customise.md").read_text(encoding="utf-8")
     ):
-        found.setdefault(language, []).append(code)
+        examples.setdefault(language, []).append(code)
     monkeypatch.chdir(workspace.path)
-    (workspace.path / "mine.yaml").write_text(found["yaml"][0], encoding="utf-8")
-    for table in found["csv"]:
+    (workspace.path / "mine.yaml").write_text(examples["yaml"][0], encoding="utf-8")
+    for table in examples["csv"]:
         (workspace.path / table.split()[1]).write_text(table, encoding="utf-8")
-    for line in "".join(found["sh"]).splitlines():
+    for line in "".join(examples["sh"]).splitlines():
         program, *arguments = shlex.split(line, comments=True)
         if program == "precursors":
             assert cli.main(arguments) == cli.DONE
@@ -161,14 +215,14 @@ def test_an_example_prints_what_it_says(script, tmp_path, monkeypatch, capsys):
     source = script.read_text(encoding="utf-8")
     monkeypatch.chdir(tmp_path)
     exec(compile(source, script, "exec"), {})
-    _, told = ast.get_docstring(ast.parse(source)).split("Prints:\n")
-    assert dedent(capsys.readouterr().out).rstrip() == dedent(told)
+    _, output = ast.get_docstring(ast.parse(source)).split("Prints:\n")
+    assert dedent(capsys.readouterr().out).rstrip() == dedent(output)
     assert script.name in RECIPES.read_text(encoding="utf-8")
     for path in re.findall(r'savefig\("(.+?)"', source):
         assert (tmp_path / path).stat().st_size > 10_000
 
 
-def test_every_page_is_rendered_with_its_title_and_links_that_work(tmp_path):
+def test_every_page_is_rendered_with_title_and_working_links(tmp_path):
     from pdoc import pdoc, render  # slow
 
     render.configure(docformat="numpy")

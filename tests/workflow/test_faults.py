@@ -1,4 +1,5 @@
-"""Kills and odd places: what is finished stays, nothing is half written, a run goes on.
+"""After Snakemake is killed, finished files stay, no file is half written, and the same
+command continues. The directory has spaces and letters beyond ASCII in its name.
 
 FAULT_KILLS=20 kills twenty times.
 """
@@ -15,13 +16,13 @@ from workflow_copy import Workspace, copy_workflow
 
 KILLS = int(os.environ.get("FAULT_KILLS", "1"))
 SEED = 1964
-# A scene with its run, slips and trace.
+# Makes the run, slips and trace of a scene.
 COMMAND = ("-c1", "--", "results/tables/fig10_slips.csv")
 
 
 def kill_after(project: Workspace, lines: int) -> bool:
-    """Start Snakemake as a user does, and kill it and its jobs once so many jobs have
-    begun or ended; whether it came so far."""
+    """Start Snakemake, and kill it with its jobs after `lines` starts and ends of jobs;
+    return whether it was killed before it ended."""
     process = subprocess.Popen(
         [sys.executable, "-m", "snakemake", *COMMAND],
         cwd=project.path,
@@ -39,20 +40,18 @@ def kill_after(project: Workspace, lines: int) -> bool:
 
 
 def made(project: Workspace) -> set[str]:
-    """What lies under final names, apart from logs, with the bytes that `make all`
-    gave."""
-    found = {
+    """Names of the finished files without logs, which must equal those of `make all`."""
+    files = {
         name: content
         for name, (_, content) in project.results().items()
         if "/logs/" not in name and "/." not in name
     }
-    for name, content in found.items():
+    for name, content in files.items():
         assert content == (ROOT / name).read_bytes(), name
-    return set(found)
+    return set(files)
 
 
 def test_after_kills_the_same_command_ends_with_the_same_bytes(tmp_path):
-    # Spaces and letters of any script are odd, but allowed.
     project = copy_workflow(tmp_path / "Vorläufer des Gleitens")
     rng = np.random.default_rng(SEED)
     for _ in range(KILLS):

@@ -1,18 +1,17 @@
-"""The report shows every figure, with a caption of its own, and the main tables of the
-workflow."""
+"""The report has every figure with a caption, and the main tables of the workflow."""
 
 import json
 import re
 
 
 def results_in(report):
-    """What the report holds, by path."""
+    """The results in the report, by path."""
     text = report.read_text(encoding="utf-8")
-    (found,) = re.findall(r"^    var results = (\{.*\});$", text, flags=re.MULTILINE)
-    return json.loads(found)
+    (results,) = re.findall(r"^    var results = (\{.*\});$", text, flags=re.MULTILINE)
+    return json.loads(results)
 
 
-def test_every_figure_has_a_caption_and_a_label_of_its_own_and_the_main_tables_are_there(
+def test_the_report_has_all_figures_with_captions_and_the_tables(
     finished,
 ):
     style = "workflow/report/report.css"
@@ -34,8 +33,8 @@ def test_every_figure_has_a_caption_and_a_label_of_its_own_and_the_main_tables_a
         words = re.sub("<[^>]+>", " ", result["caption"]).split()
         assert len(words) >= 10, path
         assert "{{" not in result["caption"], path
-        # A second label with two values would be taken for a switch, and Snakemake's
-        # page would stay white.
+        # Snakemake makes a switch of a second label with two values, and its page then
+        # stays empty.
         assert len(result["labels"]) == 1, path
     labels = {tuple(results[path]["labels"].items()) for path in figures}
     assert len(labels) == len(figures)

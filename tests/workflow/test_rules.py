@@ -1,22 +1,21 @@
-"""The rules are written as Snakemake's own tools ask for, and know the code that they
-run."""
+"""The rules satisfy Snakemake's linter, and depend on the code that they run."""
 
 import re
 
 import pytest
 from places import ROOT
 
-# One environment, built from requirements.lock by the Makefile, serves all rules.
+# All rules share one environment, which the Makefile builds from requirements.lock.
 ACCEPTED_FINDING = "Specify a conda environment or container for each rule"
 
 
-def test_lint_asks_for_nothing_but_one_software_environment_per_rule(workspace):
+def test_lint_complains_only_about_environments_of_rules(workspace):
     outcome = workspace.run("--lint")
     findings = set(re.findall(r"^\s+\* (.+?)[.:]+$", outcome.text, flags=re.MULTILINE))
     assert findings == {ACCEPTED_FINDING}, outcome.text
 
 
-def test_the_mission_has_targets_and_tools_that_look_below_workflow_find_them(
+def test_the_main_targets_exist_in_the_snakefile_below_workflow(
     untouched,
 ):
     workspace, _ = untouched
@@ -37,7 +36,7 @@ def rules_of(file):
     sorted((ROOT / "workflow").glob("*/**/*.smk")),
     ids=lambda file: file.parent.name if file.stem == "rules" else file.stem,
 )
-def test_every_rule_says_what_it_does_and_a_job_has_its_log_place_and_digest(file):
+def test_a_rule_has_a_docstring_and_a_job_a_log_and_a_digest(file):
     text = file.read_text(encoding="utf-8")
     rules = rules_of(file)
     assert len(rules) == len(re.findall("^ *rule ", text, re.MULTILINE))

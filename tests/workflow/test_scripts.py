@@ -1,4 +1,4 @@
-"""The scripts say in one line what goes wrong, and print what they should."""
+"""The scripts report errors in one line, and print their results."""
 
 import re
 import runpy
@@ -25,7 +25,7 @@ def test_a_job_logs_how_long_it_took(workspace):
     assert re.fullmatch(r"simulate_scene, fig10: \d+\.\d{3} s\n", log)
 
 
-def test_what_is_wrong_in_our_code_is_one_line_with_a_traceback_in_the_log(workspace):
+def test_an_error_in_our_code_is_one_line_and_a_logged_traceback(workspace):
     workspace.edit(
         SOLVER, "", "\ndef simulate(*_, **__):\n    raise KeyError('mine')\n"
     )
@@ -37,7 +37,7 @@ def test_what_is_wrong_in_our_code_is_one_line_with_a_traceback_in_the_log(works
     assert "Traceback" not in outcome.text
 
 
-def test_a_run_that_meets_its_cap_is_kept_under_another_name(workspace):
+def test_an_unfinished_run_has_a_file_name_of_its_own(workspace):
     workspace.edit(SOLVER, "MAX_TRANSITIONS = 10_000_000", "MAX_TRANSITIONS = 100")
     outcome = workspace.run(*JOB)
     assert "max_transitions = 100 reached" in outcome.text
@@ -46,12 +46,10 @@ def test_a_run_that_meets_its_cap_is_kept_under_another_name(workspace):
     assert len(Run.load(runs / "fig10.unfinished.h5").transitions) == 100
 
 
-# What make calls
+# Scripts that make calls
 
 
-def test_the_reproduction_is_printed_beside_the_paper_with_what_to_open_next(
-    tmp_path, capsys
-):
+def test_the_reproduction_is_printed_beside_the_papers_numbers(tmp_path, capsys):
     (tmp_path / "tables").mkdir()
     golden = pd.read_csv(ROOT / "tests/golden/reproduction.csv")
     golden.to_csv(tmp_path / "tables/reproduction.csv", index=False)
@@ -64,7 +62,7 @@ def test_the_reproduction_is_printed_beside_the_paper_with_what_to_open_next(
 
 
 @pytest.mark.parametrize(
-    ("script", "arguments", "told"),
+    ("script", "arguments", "message"),
     [
         (
             "print_reproduction",
@@ -74,10 +72,10 @@ def test_the_reproduction_is_printed_beside_the_paper_with_what_to_open_next(
         ("codecheck", [], "codecheck: "),
     ],
 )
-def test_a_script_that_make_runs_says_in_one_line_which_file_is_missing(
-    tmp_path, monkeypatch, script, arguments, told
+def test_a_script_of_make_names_a_missing_file_in_one_line(
+    tmp_path, monkeypatch, script, arguments, message
 ):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "argv", [script, *arguments])
-    with pytest.raises(SystemExit, match=rf"\A{told}[^\n]*\Z"):
+    with pytest.raises(SystemExit, match=rf"\A{message}[^\n]*\Z"):
         runpy.run_path(str(ROOT / f"workflow/scripts/{script}.py"), run_name="__main__")

@@ -1,11 +1,10 @@
 rule write_explorer:
-    """Write the page on which the loads are changed and the blocks move."""
+    """Write the interactive page, which solves the chain in the browser."""
     input:
         page=sorted(
             path for path in (PAPERS / "explorer").iterdir() if path.suffix in (".js", ".css", ".html")
         ),
         slips=SLIPS,
-        balance="results/tables/balance.csv",
         members="results/tables/digits_members.csv",
         shares="results/tables/digits.csv",
         resolution="results/tables/resolution.csv",
@@ -24,7 +23,7 @@ rule write_explorer:
 
 
 rule explorer:
-    """The page results/explorer.html."""
+    """The interactive page results/explorer.html."""
     input:
         rules.write_explorer.output,
     localrule: True

@@ -1,13 +1,13 @@
 from maegawa2010.paper.inputs import CLAIM_TABLES, POINT_TABLES
-from maegawa2010.paper.shown import results_shown
+from maegawa2010.paper.documents import cited_results
 
 PAPER_SOURCE = ROOT / "paper"
-# The article is about the paper's slider, and is not made for another.
+# The article describes the paper's slider, so it is not made for another.
 PAPER = ["results/paper.pdf", "results/supplement.pdf"] if HAS_LONG else []
 
 
 rule eq15:
-    """Check Eq. 15 by algebra and in the runs."""
+    """Check Eq. 15 by algebra and against the runs."""
     input:
         runs=RUNS,
     output:
@@ -26,7 +26,7 @@ rule eq15:
 if set(PAPERS_SCENES) <= set(FIG13):
 
     rule judge_claims:
-        """Judge the paper's claims by the tables."""
+        """Evaluate the paper's claims from the tables."""
         input:
             tables=collect("results/tables/{table}.csv", table=sorted({*CLAIM_TABLES, *POINT_TABLES})),
             checks=["results/tables/committed_resolution.csv"] if IS_COMMITTED else [],
@@ -63,9 +63,14 @@ rule fig09:
 
 
 rule write_paper:
-    """Set a document of paper/ with the numbers and figures of the results."""
+    """Typeset the article or the supplement with the numbers and figures of the results."""
     input:
-        shown=lambda wildcards: results_shown(PAPER_SOURCE / f"{wildcards.document}.typ"),
+        # Read from the text of the document. The job refuses to run without a result that no rule makes.
+        shown=lambda wildcards: [
+            path
+            for path in cited_results(PAPER_SOURCE / f"{wildcards.document}.typ")
+            if any(rule.is_producer(path) for rule in workflow.rules)
+        ],
         main=PAPER_SOURCE / "{document}.typ",
         source=sorted(path for path in PAPER_SOURCE.rglob("*.*") if path.suffix != ".pdf"),
         about=ROOT / "CITATION.cff",
@@ -83,7 +88,7 @@ rule write_paper:
 
 
 rule paper_figures:
-    """Figs. 9 to 13, and three slips: their push, and in slow motion."""
+    """Figs. 9 to 13, and three slips as a figure and as a film."""
     input:
         rules.fig09.output,
         collect("results/figures/{scene}.{kind}", scene=SCENES, kind=["svg", *MORE_FORMATS]),
@@ -106,7 +111,7 @@ onstart:
     if not HAS_LONG:
         own = "study resolution" if IS_PAPERS else "slider"
         print(
-            f"paper.pdf is not made: it is about the paper's {own}, and this is another one",
+            f"paper.pdf is not made: it describes the paper's {own}, and this is another one",
             file=sys.stderr,
         )
 

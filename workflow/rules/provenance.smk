@@ -1,5 +1,5 @@
 rule write_provenance:
-    """Write the versions, the machine, and checksums of all inputs and results."""
+    """Record software versions, the machine, and checksums of all inputs and results."""
     input:
         RESULTS,
     output:
@@ -15,9 +15,9 @@ rule write_provenance:
         "../scripts/write_provenance.py"
 
 
-# Snakemake would take the figure of another rule for that of the scene.
+# Two rules would write the same figure if a scene had one of these names.
 drawn = {Path(file).stem for rule in workflow.rules for file in rule.output if "/figures/" in file}
 for scene in {*drawn, *(rule.name for rule in workflow.rules)} & set(config["scenes"]):
     raise WorkflowError(
-        f"configuration: scenes.{scene} has the name of a target or a figure: give it another one"
+        f"configuration: scenes.{scene} has the name of a target or a figure: choose another name"
     )

@@ -1,5 +1,5 @@
 rule simulate_scene:
-    """Find every transition of a scene."""
+    """Simulate a scene and find every transition."""
     output:
         run="results/runs/{scene}.h5",
         slips=report("results/tables/{scene}_slips.csv", category="Tables"),
@@ -35,7 +35,7 @@ rule draw_scene:
     params:
         title=lambda wildcards: config["scenes"][wildcards.scene]["title"],
         look=config["figure"],
-        # The article sets those of Fig. 13 below each other: the last has the key.
+        # The article stacks the scenes of Fig. 13, so only the last one has a legend.
         has_key=lambda wildcards: wildcards.scene not in sorted(FIG13)[:-1],
         code=digest("draw_scene"),
     script:
@@ -65,7 +65,7 @@ rule fig13:
 
 
 rule mu_sapp:
-    """Compare mu_sapp and other numbers of the scenes with the paper's, under several readings."""
+    """Compare mu_sapp (computed by `summary_of` in precursors.analysis.summary) and the counts with the paper."""
     input:
         runs=RUNS,
         slips=collect("results/tables/{scene}_slips.csv", scene=SCENES),
@@ -86,12 +86,12 @@ rule mu_sapp:
         "../scripts/mu_sapp.py"
 
 
-# The scene of which three slips are shown: that in the middle.
+# Three slips of this scene are drawn.
 SHOWN = FIG13[len(FIG13) // 2]
 
 
 rule draw_slips:
-    """Draw three slips of a scene: the push along the row, and the blocks in slow motion."""
+    """Draw three slips of a scene: the spring forces along the row, and a film in slow motion."""
     input:
         run=f"results/runs/{SHOWN}.h5",
         slips=f"results/tables/{SHOWN}_slips.csv",
@@ -106,7 +106,7 @@ rule draw_slips:
             "results/figures/push.svg",
             caption="../report/push.rst",
             category="Reproduction",
-            labels={"figure": "push: why a slip stops where it does"},
+            labels={"figure": "push: what a slip adds and releases, and how far it can reach"},
         ),
         more=collect("results/figures/push.{kind}", kind=MORE_FORMATS),
     log:

@@ -10,20 +10,20 @@ import yaml
 from matplotlib import image
 
 GOLDEN = Path("tests/golden")
-# Largest differences from the golden files, by the unit of a number or the kind of a
-# file; everything else is the same. Processors differ by roundings.
+# Largest differences from the golden files that processors' rounding may cause, by the
+# unit of a number or the suffix of a file. Everything else must be the same.
 TOLERANCES = {
     "s": 1e-9,  # what the project promises for times up to the first global slip
     "N": 1e-6,  # the load grows by 200 N/s; the linear program of Eq. 15 errs by 1e-9
     "1": 1e-8,  # mu_sapp is a load over 400 N
     "m/s": 1e-8,  # a formula, right to rounding
-    "1/s": math.inf,  # exponents of a chaotic motion; the verdict on them is the same
-    # Root mean square over all pixels and colours, of 255. The locked Matplotlib draws
-    # the same picture, up to some smoothing. Of the edits tried (colours, markers,
-    # sizes, dashes, words, a moved point) the least, fewer arrows, is worth 1.4.
+    "1/s": math.inf,  # exponents of a chaotic motion; the verdict must be the same
+    # Root mean square over all pixels and colours, out of 255. The locked Matplotlib
+    # draws the same picture up to smoothing. Of the edits that we tried (colours,
+    # markers, sizes, dashes, words, a moved point), fewer arrows gave the least, 1.4.
     ".png": 0.5,
 }
-# Times the tolerance after the first global slip, where the motion is chaotic.
+# Factor on the tolerance after the first global slip, where the motion is chaotic.
 AFTER_GLOBAL_SLIP = 1e3
 
 
@@ -34,7 +34,9 @@ def manifest(root: Path = Path()) -> list[str]:
 
 
 def difference(made: Path, golden: Path) -> str:
-    """Say where a table or figure differs from the golden one; empty if it does not."""
+    """Describe how a table or figure differs from the golden one; empty if it does not."""
+    if not golden.exists():
+        return f"{golden} does not exist: run make golden"
     if made.suffix == ".csv":
         return table_difference(made, golden)
     if made.suffix == ".png":
@@ -49,7 +51,7 @@ def difference(made: Path, golden: Path) -> str:
 
 
 def table_difference(made: Path, golden: Path) -> str:
-    """Say which line of a table has another value; its unit stands at the end of the
+    """Describe the first value of a table that differs; its unit is the end of the
     column's name, or in a column `unit`."""
     new, old = (
         pd.read_csv(path, dtype=str, keep_default_na=False) for path in (made, golden)
@@ -84,7 +86,7 @@ def agree(value: str, expected: str, tolerance: float) -> bool:
 
 
 def main() -> None:
-    """Print a line for each file; the exit code is that of the worst."""
+    """Print a line for each file; the exit code is 1 if any differs."""
     problems = {
         file: difference(Path(file), GOLDEN / Path(file).name) for file in manifest()
     }

@@ -9,6 +9,6 @@ with job() as snakemake:
     run = read(Run.load, snakemake.input.run)
     slips = read(read_table, snakemake.input.slips)
     figures = [snakemake.output.push, *snakemake.output.more]
-    title = "why a slip stops where it does"
+    title = "what a slip adds to the push and releases"
     save(push.draw(run, slips, look=look), figures, title, look)
     wave.draw(run, slips).savefig(snakemake.output.wave)

@@ -16,13 +16,13 @@ QUANTITIES = {
 }
 
 
-# What a reader opens first, seen from the results; those of another slider have no article.
+# What a reader opens first. Results for another slider have no article.
 PAGES = ("paper.pdf", "supplement.pdf", "explorer.html", "figures")
 
 
 def main(results: str | Path) -> None:
-    """Print the table of the reproduction for reading, four digits a number, and what
-    to open next."""
+    """Print the table of the reproduction with four digits per number, and what to
+    open next."""
     found = (
         read_table(Path(results, "tables/reproduction.csv"))
         .rename_axis(index=None)

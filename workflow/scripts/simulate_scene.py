@@ -1,6 +1,6 @@
-"""The slip table has every event; `counted` tells those of Fig. 13. The trace is the exact
-tangential load at points between which it is straight to 1e-4 N, every transition among
-them. A run that meets its cap on transitions is kept too.
+"""The slip table has every event; its column `counted` marks those of Fig. 13. The trace
+is the exact tangential load at all transitions and at points between which it is
+straight to 1e-4 N. A run that reaches its limit on transitions is saved as unfinished.
 """
 
 from pathlib import Path

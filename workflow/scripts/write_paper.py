@@ -1,5 +1,4 @@
-"""Set a document of paper/ with the fonts that Typst brings along; the same bytes on
-every machine."""
+"""Typeset a document of paper/, with the same bytes on every machine."""
 
 import re
 import shutil
@@ -7,28 +6,36 @@ import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
+from maegawa2010.paper.documents import cited_results
 from maegawa2010.support.job import job
 from precursors.support.files import write_whole
 
-# No page says when it was made.
+# The PDF has no date of its own, so that its bytes do not change.
 EPOCH = 0
 
 
 def main(
     main_file: str | Path, results: Iterable[str | Path], output: str | Path
 ) -> None:
-    """Set a Typst file, which finds its directory as /paper and these results by their
-    paths.
+    """Typeset a Typst file, which reads its directory as /paper and the results by
+    their paths.
 
     Raises
     ------
     ValueError
-        In one line: what Typst says is wrong and where; its warnings too.
+        In one line: which result is missing, or the errors or warnings of Typst and
+        where they occur.
     """
     import matplotlib
     import typst  # slow, and the tests of other scripts import this directory
 
     main_file = Path(main_file)
+    missing = sorted({*cited_results(main_file)} - {*map(str, results)})
+    if missing:
+        raise ValueError(
+            f"paper/{main_file.name} shows {', '.join(missing)}, which no rule makes: "
+            "delete what shows it, or include the study that makes it"
+        )
     with tempfile.TemporaryDirectory() as directory:
         root = Path(directory)
         shutil.copytree(main_file.parent, root / "paper")
@@ -52,7 +59,7 @@ def main(
 
 
 def _line(problem: object) -> str:
-    """A complaint of Typst in one line, with the places in the source."""
+    """An error or warning of Typst in one line, with its places in the source."""
     places = re.findall(r"(paper/\S+\.typ:\d+)", getattr(problem, "diagnostic", ""))
     message = getattr(problem, "message", str(problem)).removeprefix(
         "assertion failed: "

@@ -1,16 +1,19 @@
 "use strict";
-// Draws on canvases: axes, curves and marks of the figures, and the row of blocks. Nothing here
-// knows the page's state.
+// Draws axes, curves, marks and the row of blocks on canvases. Nothing here depends on the state of
+// the page.
 
 const KINDS = ["partial", "global", "backward", "unsure"];
 const NAMES = ["precursor", "global slip", "backward slip", "not predictable"];
 const TILT_COLOURS = ["trailing", "uniform", "leading"];
-// Things in the picture of the row that a word of the text can single out; the others fade.
-const PARTS = ["blocks", "bars", "frames", "arrows", "drive", "line", "load", "left", "added"];
+// Parts of the picture of the row that a word of the text can highlight; the others fade.
+const PARTS = ["blocks", "bars", "frames", "arrows", "drive", "line", "load", "stairs", "added",
+  "released"];
 const FADED = 0.16;
+const NARROW = 500; // px, below which a figure has shorter words
+const PALE = 0.6; // opacity of the areas that a slip added or released
 const palette = {};
 
-// Colours come from the style sheet, which knows light and dark.
+// Read the colours from the style sheet, which has a light and a dark scheme.
 function readPalette() {
   const style = getComputedStyle(document.documentElement);
   const names = ["paper", "ink", "soft", "line", "grid", "band", "stuck", "strong"];
@@ -21,7 +24,7 @@ function readPalette() {
 // Colour of a number on a block.
 const inkOn = (kind) => ({ stuck: palette.paper, partial: "#000000" })[kind] ?? "#ffffff";
 
-// Clear a canvas, which has as many pixels as the screen gives it: [context, width, height].
+// Clear a canvas and fit it to the pixels of the screen: [context, width, height].
 function clear(canvas) {
   const { clientWidth: width, clientHeight: height } = canvas;
   const ratio = window.devicePixelRatio || 1;
@@ -37,10 +40,11 @@ function clear(canvas) {
   return [context, width, height];
 }
 
-// Write a text; an underscore sets what follows as an index: F_X, μ_sapp.
-function write(context, text, x, y, align = "left") {
+// Write a text; an underscore marks a subscript: F_X, μ_sapp.
+function write(context, text, x, y, align = "left", weight = "") {
   const parts = String(text).split(/_(sapp|\w)/).map((part, i) => {
-    const font = (context.font = `${i % 2 ? 9 : 12}px system-ui, "DejaVu Sans", sans-serif`);
+    const size = i % 2 ? 9 : 12, family = 'system-ui, "DejaVu Sans", sans-serif';
+    const font = (context.font = `${weight} ${size}px ${family}`);
     return { part, font, lower: i % 2 ? 4 : 0, wide: context.measureText(part).width };
   });
   const width = parts.reduce((sum, { wide }) => sum + wide, 0);
@@ -74,7 +78,7 @@ function dashed(context, points) {
   context.setLineDash([]);
 }
 
-// About `count` round numbers from low to high, and their decimals.
+// About `count` round numbers from low to high, and the number of their decimals.
 function ticks(low, high, count) {
   const rough = (high - low) / count || 1, power = 10 ** Math.floor(Math.log10(rough));
   const step = power * [1, 2, 5, 10].find((factor) => factor * power >= rough * 0.999);
@@ -83,8 +87,8 @@ function ticks(low, high, count) {
   return { values, decimals: Math.max(0, -Math.floor(Math.log10(step) + 1e-9)) };
 }
 
-// Axes of a figure with ranges x and y [low, high]; `labels` are [of x or null, of y]. Returns
-// x(value), y(value) and the box.
+// Draw axes with the ranges x and y [low, high]; `labels` are [of x or null, of y]. Returns functions
+// x(value) and y(value), and the box.
 function axes(context, width, height, x, y, labels, xTicks, yTicks) {
   const bottom = height - (labels[0] ? 36 : 8);
   const box = { left: 52, right: width - 14, top: 18, bottom };
@@ -118,7 +122,7 @@ function lowerBound(values, x) {
   return low;
 }
 
-// A curve, without points that cannot be told from the one before.
+// Draw a curve, without points that are less than half a pixel from the one before.
 function curve(context, x, y, time, value, start, end) {
   const points = [], to = Math.min(lowerBound(time, end) + 1, time.length);
   for (let i = Math.max(lowerBound(time, start) - 1, 0); i < to; i++) {
@@ -128,8 +132,23 @@ function curve(context, x, y, time, value, start, end) {
   stroke(context, points);
 }
 
-// Slides of the blocks, a line for each block. A backward slip has half of its height. Slips that
-// are not predictable are grey. Returns the kinds that are there.
+// Draw a load over time within the box of a figure, in grey where it is not predictable.
+function drawLoad(context, { x, y, box }, { time, load, known }, start, end, colour) {
+  const until = Math.min(Math.max(known, start), end);
+  context.save();
+  context.beginPath();
+  context.rect(box.left, box.top - 6, box.right - box.left, box.bottom - box.top + 7);
+  context.clip();
+  context.lineWidth = 1.5;
+  for (const [name, from, to] of [[colour, start, until], ["unsure", until, end]]) {
+    context.strokeStyle = palette[name];
+    if (from < to) curve(context, x, y, time, load, from, to);
+  }
+  context.restore();
+}
+
+// Draw when each block slides, a line for each block. Bars of backward slips have half the height;
+// slips that are not predictable are grey. Returns the kinds of slips drawn.
 function slideBars(context, { x, box }, { n, events, arrays, known }, start, end) {
   const kinds = new Set(), pitch = (box.bottom - box.top) / n, gap = n > 25 ? 0.5 : 1.5;
   for (const { first, last, onset, end: stop, isGlobal } of events) {
@@ -156,7 +175,7 @@ function slideBars(context, { x, box }, { n, events, arrays, known }, start, end
   return kinds;
 }
 
-// A mark at a point in pixels: dot, ring or cross.
+// Draw a mark at a point in pixels: dot, ring or cross.
 function mark(context, shape, x, y, size, colour) {
   context.strokeStyle = context.fillStyle = colour;
   context.lineWidth = 2;
@@ -177,16 +196,16 @@ function spring(context, from, to, y, turns) {
   stroke(context, [[from, y], ...coils, [to - lead, y], [to, y]]);
 }
 
-// An arrow that points down.
+// Draw an arrow that points down.
 function arrow(context, x, from, to) {
   const head = Math.max(to - 5, from);
   stroke(context, [[x, from], [x, to]], [[x - 3.5, head], [x, to], [x + 3.5, head]]);
 }
 
-// The row as in Fig. 9; below each block the net force of its springs against the limits of static
-// friction; and below these the push along the row, if it `hasPush`. `shifts` [m] are displacements
-// in view of the camera, `magnified` so many times; `pushed` is the share of the drive's spring
-// that is pressed; `lit` is the part that is singled out.
+// Draw the row as in Fig. 9; below each block the net force of its springs between the limits of static
+// friction; and below these, if the frame `hasPush`, the push along the row. `shifts` [m] are
+// displacements relative to the camera, drawn `magnified` times as large; `pushed` is how far the
+// drive's spring is compressed, from 0 to 1; `lit` is the part that is highlighted.
 function drawRow(canvas, frame) {
   const { weights, strength, forces, modes, shifts, magnified, pushed, ground, lit } = frame;
   const [context, width, height] = clear(canvas), n = weights.length;
@@ -196,7 +215,7 @@ function drawRow(canvas, frame) {
   const [middle, half] = (frame.hasPush ? [0.42, 0.07] : [0.61, 0.24]).map((at) => at * height);
   const pushTop = 0.57 * height;
   const centres = shifts.map((shift, i) => left + (i + 0.5) * pitch + shift * scale);
-  const isNarrow = width < 500;
+  const isNarrow = width < NARROW;
   const show = (name, i) => {
     const isOut = lit === name && (name !== "blocks" || i === frame.front - 1);
     context.globalAlpha = isOut || !PARTS.includes(lit) ? 1 : FADED;
@@ -221,7 +240,7 @@ function drawRow(canvas, frame) {
   show("drive");
   const side = centres[0] - size / 2, plate = side - 0.8 * left * (1 - 0.65 * pushed);
   spring(context, plate, side, y, 5);
-  caption("drive", floor - 1.5 * size - 12);
+  caption("drive", Math.max(floor - 1.5 * size - 12, 22));
   context.fillStyle = context.strokeStyle = palette.ink;
   context.fillRect(plate - 5, floor - 1.5 * size - 2, 5, 1.5 * size + 2);
   write(context, "→", plate - 8, y, "right");
@@ -258,16 +277,17 @@ function drawRow(canvas, frame) {
   show("frames");
   caption("and limit", middle + 8);
   if (frame.hasPush) {
-    // The edges of the parts of the row that the blocks stand for.
+    // Edges of the parts of the slider that the blocks represent.
     const inner = centres.slice(1).map((x, i) => (centres[i] + x) / 2);
     const edges = [centres[0] - pitch / 2, ...inner, centres.at(-1) + pitch / 2];
     drawPush(context, frame, edges, centres, pushTop, height - 22, show);
     show("line");
     context.fillStyle = palette.ink;
-    const friction = isNarrow ? "F_X − μ_k W" : "what kinetic friction leaves of F_X";
+    const friction = isNarrow ? "F_X − μ_k W" : "F_X minus kinetic friction";
     write(context, `dashed: ${friction}`, width - 4, pushTop - 8, "right");
-    show("left");
-    caption("push in each spring", pushTop - 8);
+    show("stairs");
+    caption(isNarrow ? "push in springs" : "push in each spring: thin before the slip, thick now",
+      pushTop - 8);
   }
   show("ground");
   caption(`Movement is drawn ${magnified} times as large.`, height - 7);
@@ -275,35 +295,38 @@ function drawRow(canvas, frame) {
   write(context, ends, width - 4, height - 7, "right");
 }
 
-// The push that each spring carries: what the events before left in it, and what the last one
-// added. The dashed line is what sliding friction leaves of the load: F_X less mu_k times the
-// normal load from the pushed end.
+// Draw the push in each spring before a slip and now, and the areas that the slip added and released.
+// The dashed line is the load that remains after kinetic friction: F_X at the onset minus mu_k times
+// the normal load from the trailing edge.
 function drawPush(context, frame, edges, centres, top, bottom, show) {
-  const { weights, forces, before, friction, highest, load } = frame;
+  const { weights, forces, before, friction, highest } = frame, load = before[0];
   const y = (force) => bottom - ((bottom - top) * force) / highest;
   const springs = [edges[0], ...centres, edges.at(-1)], line = [[edges[0], y(load)]];
   const step = (force, i) => [[springs[i], y(force)], [springs[i + 1], y(force)]];
-  const steps = (values) => [[edges[0], bottom], ...Array.from(values, step).flat()];
-  const kept = forces.map((force, i) => (i ? Math.min(before[i], force) : force));
-  show("added");
-  area(context, steps(forces), palette[frame.added]);
-  context.globalAlpha = 1;
-  area(context, steps(kept), palette.paper);
-  show("left");
-  area(context, steps(kept), palette.band);
-  show("ground");
+  const stairs = (values) => Array.from(values, step).flat();
+  const fills = { added: frame.added, released: "unsure" };
+  for (const [part, sign] of [["added", 1], ["released", -1]]) {
+    const far = forces.map((force, i) => (sign * (force - before[i]) > 0 ? force : before[i]));
+    show(part);
+    context.globalAlpha *= PALE;
+    area(context, [...stairs(far), ...stairs(before).reverse()], palette[fills[part]]);
+    context.globalAlpha /= PALE;
+  }
+  show("stairs");
   context.strokeStyle = palette.ink;
-  stroke(context, steps(forces));
+  for (const [values, width] of [[before, 0.8], [forces, 2]]) {
+    context.lineWidth = width;
+    stroke(context, [[edges[0], bottom], ...stairs(values)]);
+  }
   for (let i = 0, left = load; i < weights.length && left > 0; i++) {
     const share = Math.min(left / (friction * weights[i]), 1);
     left = share < 1 ? 0 : left - friction * weights[i];
     line.push([edges[i] + share * (edges[i + 1] - edges[i]), y(left)]);
   }
   show("line");
-  context.lineWidth = 2;
+  context.lineWidth = 1.5;
   dashed(context, line);
   show("load");
   context.fillStyle = palette.ink;
   write(context, "F_X", edges[0] - 6, y(load), "right");
-  context.lineWidth = 1.5;
 }

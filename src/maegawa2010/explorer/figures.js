@@ -1,10 +1,10 @@
-// The figures of the page: what they show of the run and of its predictability.
+// The figures of a run, with its predictability.
 
-const REACH = 22; // pixels around a mark in which a click means it
-const NARROWEST = 10e-6; // s, the narrowest view of an event
-const LONG = 0.02; // s, above which the time is that of the run, not that of an event
-const ENLARGED = 250; // times, of movement; less where blocks would touch
-const chart = {}; // axes of the time, and marks of the front lengths: [x, y, number of the event]
+const REACH = 22; // px, distance from a mark within which a click selects it
+const NARROWEST = 10e-6; // s, shortest view of an event
+const LONG = 0.02; // s, longer views have the time of the run, shorter ones that of the event
+const ENLARGED = 250; // largest magnification of displacements; less if blocks would touch
+const chart = {}; // axes of the figures over time, and places [x, y] of the front lengths
 
 function view() {
   const { end, stopped } = run, last = firstGlobal(), one = event();
@@ -16,7 +16,7 @@ function view() {
   return { start: 0, end: (stopped && 1.04 * end) || DURATION };
 }
 
-// The part of the view that is played: of an event all of it, and no more.
+// The part of the view that is animated: in the view of an event, the event only.
 function played() {
   const { start, end } = state.view === "event" && event()
     ? { start: event().onset, end: event().end } : view();
@@ -27,7 +27,7 @@ function played() {
 const restForces = (number) => (run.events[number] ?? run).force.slice();
 const kindOf = (one) => (one.onset >= run.known ? "unsure" : one.isGlobal ? "global" : "partial");
 
-// The row at a time: forces of the springs, modes, and displacements [m].
+// The row at a time [s]: forces of the springs [N], modes, and displacements [m].
 function frameAt(time) {
   const { events, n, k, weights, strength, highest, slider } = run;
   const { drive_stiffness: K, drive_velocity: V, length, mu_k: friction } = slider;
@@ -47,22 +47,23 @@ function frameAt(time) {
     return x;
   };
   const magnified = Math.min(ENLARGED, Math.floor((0.34 * length * k) / n / highest));
-  // The camera stays where the last slip left the far end, goes along if that end leaves the
-  // picture, and then eases back.
+  // The camera stays where the leading edge was before the last slip, follows it if it leaves the
+  // picture, and then moves back to it smoothly.
   const x = positions(time, forces), room = (0.07 * length) / magnified;
-  const kept = at < 0 ? 0 : positions(last.onset, last.force)[n - 1];
-  const camera = kept + Math.max(x[n - 1] - kept - room, 0);
+  const left = at < 0 ? 0 : positions(last.onset, last.force)[n - 1];
+  const camera = left + Math.max(x[n - 1] - left - room, 0);
   const rest = 0.3 * ((events[next]?.onset ?? run.end) - (last?.end ?? 0)) || 1;
   const ease = now === null && last ? Math.min((time - last.end) / rest, 1) : 0;
   const ground = camera + (x[n - 1] - camera) * ease * ease * (3 - 2 * ease);
   return {
     weights, strength: strength.slice(1), forces: forces.slice(1), modes: modes.slice(1, n + 1),
-    before: restForces(Math.max(at, 0)).slice(1), friction, load: forces[1], length, magnified,
+    before: (time <= last?.end ? last.force : forces).slice(1), friction, load: forces[1], length,
+    magnified,
     ground, shifts: x.map((value) => value - ground), now, at, front: event()?.front,
     highest: state.view === "event" && event() ? 1.1 * event().before : highest,
     pushed: Math.max(forces[1], 0) / highest, added: last ? kindOf(last) : "partial",
     kind: last?.isGlobal ? "global" : "partial", lit: document.body.dataset.lit,
-    hasPush: document.body.dataset.shows !== "1",
+    hasPush: document.body.dataset.shows !== "slip",
   };
 }
 
@@ -72,15 +73,17 @@ function showRow() {
   if (one && state.event !== now) (state.event = now), redraw("lengths");
   else if (!one && state.playing && at >= 0) state.event = at;
   const { start, end } = view(), share = (state.time - start) / (end - start);
-  const { left, right } = chart.time?.box ?? { left: 0, right: 0 };
-  element("cursor").style.transform = `translateX(${left + share * (right - left)}px)`;
-  element("cursor").hidden = share < 0 || share > 1;
+  const { left, right, top, bottom } = chart.time?.box ?? { left: 0, right: 0 };
+  const cursor = element("cursor");
+  cursor.style.transform = `translateX(${left + share * (right - left)}px)`;
+  cursor.style.height = `${bottom - top + 6}px`;
+  cursor.hidden = share < 0 || share > 1;
   const [low, high] = reel();
   element("scrubber").value = (1000 * (inFilm(state.time) - low)) / (high - low || 1);
   const since = state.time - one?.onset;
   const pace = one && secondsOf(one) / (one.end - one.onset) / 1000;
   const clock = !one ? `${quantity(state.time, "s")}, all blocks stuck`
-    : `${quantity(one.onset, "s")}${since ? ` + ${quantity(since, "s")}` : ", block 1 lets go"}`;
+    : `${quantity(one.onset, "s")}${since ? ` + ${quantity(since, "s")}` : ", block 1 starts to slide"}`;
   const slowed = one ? `slow motion: 1 ms takes ${Number(pace.toPrecision(1))} s` : "time lapse";
   element("scrubber").setAttribute("aria-valuetext", clock);
   setHtml("moment", `${clock}, F_X = ${quantity(frame.load, "N")}` +
@@ -101,18 +104,41 @@ function showReadout() {
     ${quantity(one.end - one.onset, "s")},
     F_X: ${quantity(one.before, "N")} → ${quantity(one.after, "N")}.`;
   if (!setHtml("readout", text)) return;
-  setName("row", `A row of ${counts(n, "block")}, pushed from the left by a spring. ${text}`);
-  // Words of the steps that tell of the event.
-  const told = { blocks: `block ${one.front}`, added: one.isGlobal ? "red" : "blue" };
+  // Update the words of the steps that depend on the event.
+  const words = { blocks: `block ${one.front}`, added: one.isGlobal ? "red" : "blue" };
   for (const word of document.querySelectorAll("[data-lights=blocks], [data-lights=added]")) {
-    word.textContent = told[word.dataset.lights];
+    word.textContent = words[word.dataset.lights];
   }
+  const reason = reasonOf(one);
+  document.querySelector("[data-reason]").innerHTML = marked(reason);
+  setName("row", `A row of ${counts(n, "block")}, pushed from the left by a spring. ${text}
+    This slip reaches block ${one.front}${reason}`);
 }
 
-// What is heard of a figure.
+// Why a slip ends at its front: the push is used up, or the next block stays below its limit.
+function reasonOf(one) {
+  const { n, weights, strength, slider } = run, { front } = one;
+  let left = one.before, spent = 0; // load that remains, blocks whose friction it overcame
+  for (const load of weights) {
+    const share = Math.min(left / (slider.mu_k * load), 1);
+    spent += share;
+    left -= share * slider.mu_k * load;
+  }
+  if (front === n) {
+    return left > 0 ? `, the last, and ${digits(left)} N of the push are left.`
+      : ", the last, although the line ends before it.";
+  }
+  if (front > spent + 1) return ", beyond the end of the line.";
+  if (front >= spent - 1) return ", where the line ends.";
+  const after = restForces(run.events.indexOf(one) + 1), net = after[front + 1] - after[front + 2];
+  return `, before the line ends: the net force on block ${front + 1} is then
+    ${digits(Math.abs(net))} N, below its limit of ${digits(strength[front + 1])} N.`;
+}
+
+// Set the accessible name of a figure.
 const setName = (id, text) => element(id).setAttribute("aria-label", plain(text));
 
-// Ticks and label of the time: of the run, or since the onset of an event.
+// Ticks and label of the time axis: time of the run, or time since the onset of an event.
 function timeAxis({ start, end }, width) {
   const about = Math.min(8, width / 80), zero = event()?.onset ?? start;
   if (end - start > LONG) return [ticks(start, end, about), "Time t [s]"];
@@ -123,49 +149,27 @@ function timeAxis({ start, end }, width) {
   return [{ values: values.map((value) => zero + value * unit), names }, label];
 }
 
-// Up to the first global slip and in an event K x_1: the load without its trend, which climbs one
-// step in each slip. Of the whole run F_X, which swings about mu_k F_Z. Both are grey from where
-// they are not predictable.
-function showStairs() {
+// Draw F_X over time, in grey where it is not predictable.
+function showLoad() {
   const window = view(), { start, end } = window, isRun = end - start > LONG;
-  const [context, width, height] = clear(element("stairs")), last = firstGlobal(), one = event();
-  const { drive_stiffness: K, drive_velocity: V, mu_k } = run.slider, isLoad = state.view === "all";
-  const drawn = (time, load) => load.map((force, i) => (isLoad ? force : K * V * time[i] - force));
+  const [context, width, height] = clear(element("load")), one = event();
   const motion = isRun ? null : run.motions.get(state.event);
-  const upTo = lowerBound(run.arrays.time, end) + 1;
-  const time = motion ? [start, ...motion.time, end] : run.arrays.time.subarray(0, upTo);
-  const load = motion ? [one.before, ...motion.forces.map(of(1)), one.after]
-    : run.arrays.load.subarray(0, upTo);
-  const values = drawn(time, load);
-  // Up to the global slip, whose step is the largest, the axis ends above the last precursor.
-  const isCut = state.view === "first" && last && last !== run.events[0];
-  const to = lowerBound(time, isCut ? last.onset : end) + 1;
-  const seen = values.slice(lowerBound(time, start), to);
+  const time = motion ? [start, ...motion.time, end] : run.arrays.time;
+  const load = motion ? [one.before, ...motion.forces.map(of(1)), one.after] : run.arrays.load;
+  const seen = load.slice(lowerBound(time, start), lowerBound(time, end) + 1);
   const high = seen.reduce((a, b) => Math.max(a, b), 1e-9);
   const low = isRun ? 0 : seen.reduce((a, b) => Math.min(a, b), high);
   const room = 0.1 * (high - low || 1), up = [isRun ? 0 : low - room, high + room];
-  const label = isLoad ? "Load F_X [N]" : "K x_1 = K V t − F_X, the load that slips released [N]";
-  const [along] = timeAxis(window, width);
+  const label = "Load F_X [N]", [along] = timeAxis(window, width);
   const { x, y, box } = axes(context, width, height, [start, end], up, [null, label], along);
-  if (isLoad) {
-    context.strokeStyle = context.fillStyle = palette.ink;
-    const level = y(mu_k * run.slider.normal_load);
+  const level = y(run.slider.mu_k * run.slider.normal_load);
+  context.strokeStyle = context.fillStyle = palette.ink;
+  if (level > box.top && level < box.bottom) {
     dashed(context, [[box.left, level], [box.right, level]]);
     write(context, "dashed: μ_k F_Z", box.right, 8, "right");
   }
-  context.save();
-  context.beginPath();
-  context.rect(box.left, box.top - 6, box.right - box.left, box.bottom - box.top + 7);
-  context.clip();
-  const known = Math.min(Math.max(run.known, start), end);
-  for (const [colour, from, to] of [["ink", start, known], ["unsure", known, end]]) {
-    context.strokeStyle = palette[colour];
-    context.lineWidth = 1.5;
-    if (from < to) curve(context, x, y, time, values, from, to);
-  }
-  context.restore();
-  chart.time = { x, box };
-  setName("stairs", `${label}, against time: ${counts(run.events.length, "event")}.
+  drawLoad(context, { x, y, box }, { time, load, known: run.known }, start, end, "ink");
+  setName("load", `${label}, against time: ${counts(run.events.length, "event")}.
     ${shown.answers}. ${shown.trust}`);
 }
 
@@ -179,10 +183,12 @@ function showSlips() {
   const values = Array.from({ length: Math.ceil(n / every) }, (_, i) => n - i * every);
   const up = { values, decimals: 0 }, labels = [label, "Block"];
   const figure = axes(context, width, height, [start, end], [0.5, n + 0.5], labels, along, up);
+  chart.time = figure;
   setHtml("slips-key", keyOf("box", slideBars(context, figure, run, start, end)));
   setName("slips", "Slips over time: one line for each block, coloured while it slides");
 }
 
+// Draw front lengths against the load, as in Fig. 13.
 function showLengths() {
   const [context, width, height] = clear(element("lengths")), { n, counted } = run;
   const { mu_k, normal_load } = run.slider, events = upToGlobal(run.events);
@@ -203,14 +209,16 @@ function showLengths() {
     return at;
   });
   const areShort = counted.length < events.length;
+  const points = counted.map((e) => `${counts(e.front, "block")} at ${quantity(e.before, "N")}`);
   setHtml("lengths-key", keyOf("dot", new Set(counted.map(kindOf))) +
-    (areShort ? "<span><b>×</b> shorter than one before, not counted</span>" : ""));
-  const told = counted.map((e) => `${counts(e.front, "block")} at ${quantity(e.before, "N")}`);
-  setName("lengths", `Front length against load: ${told.join(", ").slice(0, 900)}`);
+    (areShort ? "<span><b>×</b> shorter than an earlier one, not counted</span>" : ""));
+  setName("lengths", `Front length against load: ${points.join(", ").slice(0, 900)}`);
 }
 
-// The study of the last two steps, and in it the reader's slider.
+// Draw the study of a step.
 function showStudy() {
-  const { study } = STEPS[state.step - 1];
-  if (study) setName("study", study(...clear(element("study"))));
+  if (!isStudied()) return;
+  const { key, name } = STEPS[state.step - 1].study(...clear(element("study")));
+  setHtml("study-key", key);
+  setName("study", name);
 }

@@ -1,10 +1,11 @@
-"""Write the explorer: a page that solves the chain in the browser and lets the reader
-play with it.
+"""Write the explorer: a web page that simulates the chain in the browser, with sliders
+for its parameters.
 
-The page holds no run. `solver.js` does what `solver/plain.py` does, in a worker
-(`worker.js`). `story.js` has the words, `figures.js` the figures of a run, and
-`studies.js` those of tables, with the means of `drawing.js`. `explorer.js` links them to
-what the reader does.
+The page contains no runs. `solver.js` is the algorithm of `solver/plain.py`, and runs in
+a worker (`worker.js`). `story.js` has the texts, `figures.js` the figures of a run, and
+`studies.js` the figures of many sliders; both draw with `drawing.js`. `page.js` has the
+state of the page and reacts to the reader, and `address.js` keeps the state in the
+address.
 """
 
 import json
@@ -14,53 +15,48 @@ from os import PathLike
 from string import Template
 from typing import Any
 
-from precursors.model.chain import SLIDER, parse_theta
 from precursors.support.files import write_text
 
-SCRIPTS = ("drawing.js", "story.js", "studies.js", "figures.js", "explorer.js")
-
-
-def proved_slider(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Arguments of `Chain.from_slider` of a chain of the configuration's
-    `horizon.proved`."""
-    slider = {
-        name: values.get(name, value)
-        for name, value in SLIDER.items()
-        if name != "weights"
-    }
-    return slider | {"theta": parse_theta(values.get("theta", 0))}
+SCRIPTS = (
+    "drawing.js",
+    "story.js",
+    "studies.js",
+    "figures.js",
+    "address.js",
+    "page.js",
+)
 
 
 def write_explorer(data: Mapping[str, Any], path: str | PathLike[str]) -> None:
-    """Write the explorer as one HTML file that needs no other file and no network.
+    """Write the explorer as one HTML file that needs no other files and no network.
 
     Parameters
     ----------
     data
-        `scenes` of the paper: the `slider` of each, as arguments of
-        `Chain.from_slider`; its `mu_sapp` and the `mean` of F_X/F_Z after its first
-        global slip, or None; mu_sapp of sliders with the same printed inputs, `draws`,
-        of which k of n are `within` what the paper prints; and rows of `medians`: number
-        of blocks, and 5, 50 and 95 % of mu_sapp. The steps use the scenes with the
-        smallest and largest theta, and the nearest to 0. `tilted`: another `theta` and
-        its `mu_sapp`. `all_six`: [k, n] of the sliders with the same printed inputs
-        have all numbers of the paper, or None. `proved`: a `slider` and the `duration`
-        [s] up to which its transitions are proved. `duration` [s] of a run; `tolerance`
-        [s] of the times of a run that is called predictable; `printed`: range of
-        mu_sapp; `half_a_digit`: by how much sliders with the same printed inputs
-        differ; `noise` of the loads [%].
+        `scenes` of the paper. Each has its `slider`, the arguments of
+        `Chain.from_slider`; its `mu_sapp`, or None; `draws`, mu_sapp of sliders with
+        the same printed inputs, of which k of n (`within`) agree with the printed
+        value; and `finest`, the largest number of blocks in the study and its median
+        mu_sapp. The steps use the scenes with the smallest theta, the largest theta, and
+        the theta nearest to 0. `tilted`: another `theta` and its `mu_sapp`. `all_six`:
+        k of n sliders ([k, n]) with the same printed inputs have all six numbers of the
+        paper, or None. `proved`: sliders (`slider`) with the `duration` [s] for which
+        they are proved. `duration`: duration of a run [s]. `tolerance`: error of a
+        transition's time up to which a run counts as predictable [s]. `printed`: range
+        of the printed mu_sapp. `half_a_digit`: largest differences of inputs that are
+        printed the same. `noise`: noise in the loads [%].
     path
-        The file that is written.
+        The HTML file.
     """
 
     def part(*names: str) -> str:
-        room = files("maegawa2010.explorer")
+        folder = files("maegawa2010.explorer")
         return "\n".join(
-            room.joinpath(name).read_text(encoding="utf-8") for name in names
+            folder.joinpath(name).read_text(encoding="utf-8") for name in names
         )
 
     page = Template(part("page.html")).substitute(
-        style=part("explorer.css"),
+        style=part("page.css"),
         data=json.dumps(data, allow_nan=False, separators=(",", ":")),
         worker=part("solver.js", "worker.js"),
         script=part(*SCRIPTS),

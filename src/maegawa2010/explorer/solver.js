@@ -1,19 +1,19 @@
 "use strict";
-// The paper's chain, solved transition by transition in the browser: the twin of solver/plain.py.
+// Solves the paper's chain transition by transition, with the algorithm of solver/plain.py.
 //
 // Units inside: force in N, time in tau, velocity in N/tau; tau = 2 / (largest angular frequency).
 // The state is the force T_i in the spring behind each block and its velocity v_i. Between
-// transitions dT_i/dt = c_i (v_{i-1} - v_i) and, of a block that slides (Eqs. 2-6),
+// transitions dT_i/dt = c_i (v_{i-1} - v_i), and for a block that slides (Eqs. 2-6)
 // dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i.
 
 const WINDOW = 0.6875; // length of a Taylor window [tau]
 const ORDER = 24; // (2 WINDOW)^ORDER / ORDER! is below 1e-19
 const MOST_TRANSITIONS = 200000;
 const MOST_WINDOWS = 2000000;
-const ZERO = 16 * Number.EPSILON; // of its springs: a force below them counts as zero
+const ZERO = 16 * Number.EPSILON; // a net force counts as zero below this share of its parts
 
-// N blocks of a slider (Eqs. 9 and 10), which has the names of `Chain.from_slider`, under a
-// straight line of normal loads (Eq. 7) or under given ones.
+// The chain of a slider (Eqs. 9 and 10), whose keys are the arguments of `Chain.from_slider`. Normal
+// loads are linear along the slider (Eq. 7), or given as `weights`.
 function chainOf(slider) {
   const { n_blocks: n, theta, normal_load: load, drive_stiffness: K } = slider;
   const tilted = (_, j) => (load / n) * (1 + ((2 * j + 1 - n) / (n - 1 || 1)) * theta);
@@ -28,7 +28,8 @@ function chainOf(slider) {
   return { n, c, tau, k, weights, strength, friction, drive: (slider.drive_velocity * m) / tau };
 }
 
-// Taylor rows of the velocities from row 0; row r, from r (n + 2), has their r-th derivatives.
+// Fill the Taylor rows of the velocities from row 0; row r starts at r (n + 2) and has the r-th
+// derivatives.
 function expand({ n, c, friction }, rows, force, mode, last) {
   const size = c.length;
   rows.fill(0, size);
@@ -45,15 +46,15 @@ function expand({ n, c, friction }, rows, force, mode, last) {
   }
 }
 
-// Weights t^r / r! of a Taylor series, to order ORDER + 1.
+// Set the factors t^r / r! of a Taylor series, up to order ORDER + 1.
 function setTerms(terms, t) {
   terms[0] = 1;
   for (let r = 0; r <= ORDER; r++) terms[r + 1] = (terms[r] * t) / (r + 1);
 }
 
-// The first transition before `end`: [time, block, way]. Way 0 is the velocity of a block that
-// slides, which reaches zero; +1 and -1 are the margins mu_s w -+ G of a block that sticks. Most
-// of these functions provably have no root.
+// The first transition before `end`: [time, block, way]. Way 0: the velocity of a sliding block
+// reaches zero. Way +1 or -1: the margin mu_s w - G or mu_s w + G of a stuck block with the net force
+// G does. A bound shows for most of these functions that they have no root.
 function firstTransition({ n, c, strength }, rows, force, mode, last, end, terms, series) {
   const size = c.length;
   let first = [end, 0, 0];
@@ -88,13 +89,13 @@ function firstTransition({ n, c, strength }, rows, force, mode, last, end, terms
   return first;
 }
 
-// Size below which rounding hides a net force, or what it does to a velocity.
+// Size below which a net force is lost in rounding errors.
 const zeroBelow = (force, strength, i) =>
   ZERO * (Math.abs(force[i]) + Math.abs(force[i + 1]) + strength[i]);
 
-// The earliest root of a function in [0, end], or end. With |g''| <= bound, the positive root s of
-// g + g' s - bound s^2/2 is a step that cannot pass a root of g. A root at the start, to within
-// `zero`, was dealt with already: it is divided out, and where g then falls, the root is at once.
+// The earliest root of a function g in [0, end], or end. If |g''| <= bound, the positive root s of
+// g + g' s - bound s^2/2 is a step that cannot pass a root of g. A root at the start (to within
+// `zero`) belongs to the transition before: it is divided out. If g then falls, the root is at 0.
 function earliestRoot(derivatives, end, zero) {
   const first = derivatives.findIndex((d) => Math.abs(d) > zero);
   if (first < 0) return end;
@@ -122,7 +123,7 @@ function earliestRoot(derivatives, end, zero) {
   }
 }
 
-// Carry the state along the Taylor rows for a time t [tau].
+// Advance the state by a time t [tau] with the Taylor rows.
 function advance({ n, c, drive }, rows, force, last, t, terms, slip) {
   const size = c.length;
   setTerms(terms, t);
@@ -140,9 +141,9 @@ function advance({ n, c, drive }, rows, force, last, t, terms, slip) {
   for (let i = 1; i <= Math.min(last + 1, n); i++) force[i] += c[i] * (slip[i - 1] - slip[i]);
 }
 
-// Follow a slip event, from when block 1 lets go until nothing moves; pause before every window.
-// `note(t, block, mode, force, moving)` hears every transition and window (block 0), and how many
-// blocks move.
+// Simulate a slip event, from the release of block 1 until nothing moves; yield before every window.
+// `note(t, block, mode, force, moving)` is called after every transition and window (then block is
+// 0); `moving` is the number of sliding blocks.
 function* motionFrom(chain, force, longest, note, window = WINDOW) {
   const { n, c, strength, drive } = chain;
   const rows = new Float64Array(c.length + ORDER * c.length), slip = new Float64Array(c.length);
@@ -156,14 +157,14 @@ function* motionFrom(chain, force, longest, note, window = WINDOW) {
     const last = Math.min(farthest + 1, n);
     expand(chain, rows, force, mode, last);
     const end = Math.min(window, longest - elapsed);
-    const found = firstTransition(chain, rows, force, mode, last, end, terms, series);
-    const [t, block, way] = found;
+    const first = firstTransition(chain, rows, force, mode, last, end, terms, series);
+    const [t, block, way] = first;
     advance(chain, rows, force, last, t, terms, slip);
     elapsed += t;
     if (block) {
       const net = force[block] - force[block + 1];
       rows[block] = 0;
-      // The switching rule: it lets go in the direction of the force, or sticks below the limit.
+      // A stopped block sticks if static friction holds it, or slides in the direction of the force.
       const holds = Math.abs(net) <= strength[block] + zeroBelow(force, strength, block);
       const next = way || (holds ? 0 : Math.sign(net));
       moving += Math.abs(next) - Math.abs(mode[block]);
@@ -175,14 +176,14 @@ function* motionFrom(chain, force, longest, note, window = WINDOW) {
   }
 }
 
-// A run from rest that has not begun: transitions, and the slip events with the spring forces at
-// their onset.
+// A run from rest at its start. It will have transitions, and slip events with the spring forces at
+// their onsets.
 const newRun = (chain, duration) => ({
   chain, duration, time: [], block: [], mode: [], load: [], events: [],
   end: 0, force: new Float64Array(chain.c.length), stopped: false,
 });
 
-// Solve a run, and pause before every window. A run that meets a limit is `stopped` at its `end`.
+// Simulate a run; yield before every window. A run that reaches a limit is `stopped` at its `end`.
 function* solve(run) {
   const { chain, duration, force } = run, { n, c, tau, strength, drive } = chain;
   let windows = 0;

@@ -1,31 +1,30 @@
-// What the page says: its words, its sliders and its six steps, and how it writes numbers. An
-// underscore sets what follows as an index: F_X.
+// The texts of the page: explained words, sliders and steps, and the format of numbers. An underscore
+// marks a subscript: F_X.
 
 const DATA = JSON.parse(document.getElementById("data").textContent);
 const { duration: DURATION, tolerance: TOLERANCE, scenes: SCENES, proved: PROVED } = DATA;
 
-// Words that are explained, and that single out what they mean in the picture: [text, explanation].
+// Words with an explanation, which highlight their meaning in the picture: [text, explanation].
 const WORDS = {
   precursor: ["precursor", "A slip of part of the row, before the whole row slips."],
   global: ["global slip", "A slip in which all blocks slide at the same instant."],
-  bars: ["bar", "The net force of the two springs that hold the block."],
+  bars: ["bar", "The net force of the springs on the block."],
   frames: ["frame", "The limit of static friction: μ_s times the normal load of the block."],
   blocks: ["block", "The front: the farthest block that this slip reaches."],
-  line: ["dashed line", `F_X − μ_k W, where W is the normal load from the trailing edge up to a
-    point. Friction takes μ_k W on the way, and at the front nothing is left: F_X = μ_k W(L_p).`],
+  line: ["dashed line", `F_X − μ_k W: the load at the onset of the slip, minus the kinetic friction
+    of all blocks from the trailing edge up to this point, whose normal load is W.`],
   load: ["F_X", "Tangential load: the force of the drive on block 1."],
-  left: ["Grey", "Earlier slips left this push in the springs."],
-  added: ["colour", "This slip pushes the springs ahead of it, while F_X itself dips."],
+  stairs: ["stairs", "The force in each spring, from the drive’s spring on the left to the last."],
+  added: ["colour", "Push that this slip adds to the springs."],
+  released: ["grey", "Push that this slip takes from the springs."],
   front: ["front length L_p", `How far into the row a slip gets, from the trailing edge. L is the
     length of the row.`],
   drive: ["drive", "It moves with the speed V and pushes block 1 through a spring of stiffness K."],
-  stairs: ["K x_1", `How far block 1 has moved, times K: the load that all slips so far have
-    released, K V t − F_X.`],
   apparent: ["μ_sapp", `Apparent static friction: the largest F_X up to the first global slip,
     divided by the normal load F_Z of the row.`],
   arrows: ["arrows", "The normal loads w of the blocks. Their sum is F_Z, whatever the tilt."],
   fig13: ["Fig. 13", `The paper’s figure of front length against load. It leaves out events that
-    are shorter than one before them, and ends with the first global slip.`],
+    are shorter than an earlier one, and ends with the first global slip.`],
   proved: ["✓ proved", `The transitions up to the first global slip are proved: no rounding error
     can change their order.`],
   predictable: ["predictable", `A second run, whose inputs differ only in their last digits, has the
@@ -36,8 +35,8 @@ const SLIDERS = {
   theta: {
     symbol: "θ", name: "tilt of the load, theta", range: [-0.99, 0.99], step: 0.01,
     write: fraction,
-    about: `How unevenly the normal load is spread. Negative: more at the trailing edge. 0: the same
-      on each block. Positive: more at the leading edge.`,
+    about: `Distribution of the normal load. Negative: more at the trailing edge. 0: the same on
+      each block. Positive: more at the leading edge.`,
   },
   n_blocks: {
     symbol: "N", name: "number of blocks, N", range: [1, 40], step: 1,
@@ -45,11 +44,11 @@ const SLIDERS = {
   },
   mu_s: {
     symbol: "μ_s", name: "static friction, mu s", range: [0.05, 1.5], step: 0.01,
-    write: twoDigits, about: "A stuck block slips when its springs push with μ_s w.",
+    write: twoDigits, about: "A stuck block slips when the net force of its springs is μ_s w.",
   },
   mu_k: {
     symbol: "μ_k", name: "kinetic friction, mu k", range: [0, 1.5], step: 0.01,
-    write: twoDigits, about: "Friction holds a sliding block back with μ_k w; never above μ_s w.",
+    write: twoDigits, about: "The friction on a sliding block is μ_k w, at most μ_s w.",
   },
   drive_stiffness: {
     symbol: "K", name: "stiffness of the drive, K", range: [1e4, 1e8],
@@ -57,90 +56,95 @@ const SLIDERS = {
   },
   drive_velocity: {
     symbol: "V", name: "speed of the drive, V", range: [1e-6, 0.1],
-    write: (x) => `${digits(x * 1e3)} mm/s`, about: "At rest F_X grows by K V each second.",
+    write: (x) => `${digits(x * 1e3)} mm/s`, about: "While all blocks stick, F_X grows by K V each second.",
   },
 };
 const UNIFORM = nearTheta(0);
 const TILTS = [...new Set([-1, 0, 1].map(nearTheta))];
 const BUTTONS = [...TILTS, { slider: { theta: DATA.tilted.theta }, mu_sapp: DATA.tilted.mu_sapp }];
-// Texts of a number of each of the paper's loadings: "a, b and c".
+// A text for each of the paper's loadings, joined as "a, b and c".
 const listed = (texts) => texts.join(", ").replace(/, ([^,]*)$/, " and $1");
 const ofTilts = (write) => listed(TILTS.map(write));
 const SPREAD = Math.max(...TILTS.map(of("mu_sapp"))) - Math.min(...TILTS.map(of("mu_sapp")));
 const range = (value, half, decimals) =>
   `${(value - half).toFixed(decimals)} to ${(value + half).toFixed(decimals)}`;
 const ratio = () => (run ? apparent() : UNIFORM.mu_sapp)?.toFixed(4);
-const { half_a_digit: HALF, all_six: ALL_SIX } = DATA;
+const { half_a_digit: HALF_DIGIT, all_six: ALL_SIX, printed: BAND } = DATA; // BAND: of mu_sapp
+const PAPERS = (BAND[0] + BAND[1]) / 2;
 
-// Steps: heading, text, the slider and event that are shown, the part of time and whether it is
-// played, and the study.
+// Steps: name, title and text; the slider and the event that are shown (`pick`); the time shown
+// (`view`), and whether it is animated (`plays`); how much of the page is visible (`shows`); and a
+// study in place of the row.
 const STEPS = [
   {
-    title: "What is a precursor?", scene: UNIFORM, pick: "partial", view: "event", plays: true,
-    text: (word) => `The slider is cut into blocks with springs between them, and the
-      ${word("drive")} pushes the first. The ${word("bars")} under a block is the net force of its
-      springs, the ${word("frames")} is the limit of static friction. <b>A block slips when its bar
-      meets its frame.</b> The blocks slip in turn from the trailing edge, here up to
-      ${word("blocks")}; the others stay stuck. This is a ${word("precursor")} of the slip of the
-      whole row.`,
+    name: "Slip", title: "What is a precursor?", scene: UNIFORM, pick: "partial", view: "event",
+    plays: true, shows: "slip",
+    text: (word) => `The slider is modelled as a row of blocks with springs between them,
+      and the ${word("drive")} pushes the first block. The ${word("bars")} under a block shows the
+      net force of its springs, and the ${word("frames")} its limit of static friction. <b>A block slips
+      when its bar reaches its frame.</b> The blocks slip one after another from the trailing edge,
+      here up to ${word("blocks")}; the others stay stuck. This is a ${word("precursor")} of the
+      slip of the whole row.`,
   },
   {
-    title: "Where does it stop?", scene: UNIFORM, pick: "longer", view: "event", plays: true,
-    text: (word) => `Each sliding block takes its kinetic friction from the load
-      ${word("load")}. The ${word("line")} is what is left. <b>Where it meets zero, the slip
-      stops</b>, here after ${word("blocks")}. ${word("left")} is the push before the slip, and the
-      ${word("added")} what the slip adds. The next slip starts at a higher load, so its line meets
-      zero farther along. Press → and see the ${word("front")} grow; now and then a shorter slip
-      comes in between.`,
-  },
-  {
-    title: "When does the whole row slide?", scene: UNIFORM, pick: "global", view: "event",
+    name: "Push", title: "Where does it stop?", scene: UNIFORM, pick: "longer", view: "event",
     plays: true,
-    text: (word) => `The spring of the ${word("drive")} presses with ${word("load")}. Each slip
-      relaxes it, and ${word("stairs")} climbs one step. When F_X is about μ_k F_Z, with the normal
-      load F_Z of the whole row, the ${word("line")} reaches the leading edge. A wave then runs
-      through the row, and all blocks slide: a ${word("global")}. So the row lets go at
-      <b>${ratio()} F_Z</b>. This number is ${word("apparent")}, although each block holds
-      ${twoDigits(state.slider.mu_s)} times its normal load.`,
+    text: (word) => `The ${word("stairs")} show the push in each spring: the thin line before
+      the slip, the thick line now. The slip adds the ${word("added")} area and removes the
+      ${word("released")} one. The ${word("line")} is the load ${word("load")} minus the kinetic
+      friction of the blocks up to this point. <b>The farthest slips stop where friction has used up
+      the push.</b> This one reaches ${word("blocks")}<span data-reason></span> Press → for the next
+      slip: the ${word("front")} grows with the load, apart from a shorter slip now and then.`,
   },
   {
-    title: "What does the normal load do?", scene: nearTheta(-1), pick: "partial",
-    text: (word) => `The ${word("arrows")} show the normal load of each block. θ tilts it and bends
-      the ${word("line")}. With more load at the trailing edge the line falls early: precursors are
-      few and late. With less there, they are many and early. For every tilt the line ends at
-      F_X − μ_k F_Z. At the paper’s three tilts ${word("apparent")} differs by only
-      ${SPREAD.toFixed(4)}. <b>Change the tilt by ${digits(DATA.tilted.theta)}, and this
-      agreement is gone</b>.</p><p class="bar">${BUTTONS.map(({ slider: { theta }, mu_sapp }) =>
+    name: "Mean", title: "What does not depend on the loading?", scene: nearTheta(1),
+    pick: "global", view: "all", study: drawMeans,
+    text: (word) => `When the line reaches the leading edge, the whole row slides: a
+      ${word("global")}. From then on ${word("load")} rises and falls, and its peaks depend on the
+      loading. <b>Its mean over a long time does not: it is the kinetic friction μ_k F_Z</b>, because
+      the drive does as much work as friction takes. Move N: with more blocks the peaks fall. The
+      peak at the first global slip, ${word("apparent")}, falls to
+      ${ofTilts(({ finest }) => finest.mu_sapp.toFixed(3))} with ${TILTS[0].finest.n_blocks} blocks
+      (medians with ${digits(DATA.noise)} % noise in the loads). <b>So the paper’s
+      ${twoDigits(PAPERS)} depends on its ten blocks.</b> Set μ_k very low: blocks then slide
+      backward, and the mean is above μ_k F_Z.`,
+  },
+  {
+    name: "Peak", title: "When does the whole row slide?", scene: UNIFORM, pick: "global",
+    view: "event", plays: true,
+    text: (word) => `Each slip relaxes the spring of the ${word("drive")} a little, but the load
+      ${word("load")} keeps growing. When it is about μ_k F_Z, where F_Z is the normal load of the
+      whole row, the ${word("line")} reaches the leading edge. A wave then runs through the row, and
+      all blocks slide: a ${word("global")}. So the row slips at <b>${ratio()} F_Z</b>, although each
+      block can hold ${twoDigits(state.slider.mu_s)} times its normal load. This ratio is
+      ${word("apparent")}.`,
+  },
+  {
+    name: "Tilt", title: "What does the normal load do?", scene: nearTheta(-1), pick: "partial",
+    text: (word) => `The ${word("arrows")} show the normal load of each block. θ tilts it, which
+      bends the ${word("line")}. With more load at the trailing edge the line falls early, so
+      precursors are few and late; with less load there, they are many and early. For every tilt the
+      line ends at F_X − μ_k F_Z. At the paper’s three tilts ${word("apparent")} differs by only
+      ${SPREAD.toFixed(4)}. <b>Change the tilt by ${digits(DATA.tilted.theta)}, and the values no
+      longer agree</b>.</p><p class="bar">${BUTTONS.map(({ slider: { theta }, mu_sapp }) =>
       `<button type="button" data-theta="${theta}">θ = ${fraction(theta)}
       <br>${mu_sapp?.toFixed(4) ?? "–"}</button>`).join("")}`,
   },
   {
-    title: "Would another slider agree?", scene: nearTheta(1), pick: "global", study: drawDigits,
+    name: "Digits", title: "Would another slider agree?", scene: nearTheta(1), pick: "global",
+    study: drawDigits,
     text: (word) => `The paper prints its inputs with one to three digits:
-      μ_s = ${twoDigits(UNIFORM.slider.mu_s)} is anything from
-      ${range(UNIFORM.slider.mu_s, HALF.mu_s, 3)}, and V anything from
-      ${range(1e3 * UNIFORM.slider.drive_velocity, 1e3 * HALF.drive_velocity, 2)} mm/s. Each dot is
-      a slider whose inputs round to the printed ones, drawn at random. Only
+      μ_s = ${twoDigits(UNIFORM.slider.mu_s)} stands for any value from
+      ${range(UNIFORM.slider.mu_s, HALF_DIGIT.mu_s, 3)}, and V for any from
+      ${range(1e3 * UNIFORM.slider.drive_velocity, 1e3 * HALF_DIGIT.drive_velocity, 2)} mm/s. Each dot is
+      a random slider whose inputs round to the printed ones. Only
       ${ofTilts(({ within: { k, n } }) => Math.round((100 * k) / n))} % have the printed
       ${word("apparent")}, ${BAND.map(twoDigits).join(" to ")}, and
-      <b>${ALL_SIX ? `${ALL_SIX[0] || "none"} of ${ALL_SIX[1]}` : "few"} all six numbers of the
-      paper</b>. The line is your slider: move K, or V.`,
-  },
-  {
-    title: "What holds?", scene: UNIFORM, blocks: 40, pick: "global", view: "all",
-    study: drawBlocks,
-    text: (word) => `<b>After the first global slip the time mean of ${word("load")} is μ_k F_Z,
-      for every loading and number of blocks</b>, as the drive does the work that friction takes.
-      In the paper’s scenes it is ${ofTilts(({ mean }) => mean?.toFixed(4) ?? "–")} F_Z. The
-      largest F_X lies above it by as much as the slips are large. Many blocks make them small: with
-      ${digits(DATA.noise)} % noise in the loads, the medians of ${word("apparent")} are
-      ${ofTilts(({ medians }) => medians[0][2].toFixed(3))} with ${TILTS[0].medians[0][0]} blocks,
-      and ${ofTilts(({ medians }) => medians.at(-1)[2].toFixed(3))} with
-      ${TILTS[0].medians.at(-1)[0]}. <b>So 0.49 belongs to the ten blocks</b>, and each of the
-      paper’s six numbers is one draw of many.`,
+      <b>${ALL_SIX ? `${ALL_SIX[0] || "none"} of ${ALL_SIX[1]}` : "few"} have all six numbers of the
+      paper</b>. The line marks your slider: move K or V.`,
   },
 ];
-// An entry of a legend: dot, ring or box in a colour of the style sheet.
+// An entry of a legend: a dot, ring or box in a colour of the style sheet.
 const keyTo = (shape, colour, text) =>
   `<span><i class="${shape}" style="--of: var(--${colour})"></i> ${text}</span>`;
 function of(name) {
@@ -169,15 +173,16 @@ function quantity(value, unit) {
   return `${size < 1e-9 ? "0" : number.toFixed(Math.max(0, 3 - before))} ${sign}${unit}`;
 }
 const counts = (n, what) => `${n} ${what}${n === 1 ? "" : "s"}`;
-const marked = (text) => text.replace(/([FLKxμ])_(sapp|[XZpsk1])/g, "$1<sub>$2</sub>");
-// A word with its explanation; `place` tells it from that elsewhere on the page.
+const marked = (text) => text.replace(/([FLKxμ])_(sapp|[XZpsk1])/g, "$1<sub>$2</sub>")
+  .replace(/(<span class="tip".*?<\/span>)<\/span>([.,:;])/gs, "$1$2</span>"); // on one line
+// A word with its explanation; `place` makes its id unique on the page.
 function explained(place, name) {
   const [text, about] = WORDS[name], tip = `tip-${place}-${name}`;
   return `<span class="word"><button type="button" class="why" data-lights="${name}"
     aria-describedby="${tip}">${text}</button><span class="tip" role="tooltip"
     id="${tip}">${about}</span></span>`;
 }
-// A text without its explanations and marks.
+// A text without explanations and HTML.
 const plain = (html) =>
   marked(html).replace(/<span class="tip".*?<\/span>|<[^>]*>/gs, "").replace(/\s+/g, " ");
 const wayOf = ({ slider }) => 1 + Math.sign(slider.theta); // of the tilt: 0, 1 or 2

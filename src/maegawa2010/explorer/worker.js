@@ -1,12 +1,12 @@
-// Runs in a worker, after solver.js: it solves a slider and its twin side by side, in short slices,
-// so that a newer request is heard in between.
+// Runs in a worker, after solver.js. It simulates each slider and a twin that differs by roundings,
+// in short slices of time, so that it can react to a newer request in between.
 
 const SLICE = 8; // ms
-const PATIENCE = 200; // ms of work on a request, after which what is there is shown
-const FINE = 0.1; // Taylor window of a motion that is played [tau]
+const PATIENCE = 200; // ms after which an incomplete run is shown
+const FINE = 0.1; // Taylor window of a motion that is animated [tau]
 const MOST_STATES = 4000; // of a motion
-const ROUNDINGS = 64; // in which a number of the twin differs, as in analysis/horizon.py
-const APART = 10; // how much further apart a run and its twin are than rounding errors
+const ROUNDINGS = 64; // by which inputs of the twin differ, as in analysis/horizon.py
+const APART = 10; // ratio of the distance of a run from its twin to its rounding errors
 
 let job = null, motion = null, isIdle = true;
 const clock = new MessageChannel();
@@ -14,15 +14,23 @@ clock.port1.onmessage = work;
 
 onmessage = ({ data }) => {
   if (data.event === undefined) {
-    const runs = [chainOf, twinOf].map((make) => newRun(make(data.slider), data.duration));
-    job = { ...data, runs, steps: runs.map(solve), started: performance.now() };
+    const pairs = data.sliders.map((slider) => newPair(slider, data.duration));
+    job = { ...data, pairs, sent: performance.now() };
     motion = null;
-  } else if (data.id === job.id) motion = follow(job.runs[0], data);
+  } else if (data.id === job.id) motion = follow(job.pairs[0].runs[0], data);
   if (isIdle) clock.port2.postMessage(0);
   isIdle = false;
 };
 
-// A slider whose numbers differ by roundings: its run shows how far rounding errors grow.
+// A run and its twin, the number of transitions on which they agree so far, and until when they agree
+// [s].
+function newPair(slider, duration) {
+  const runs = [chainOf, twinOf].map((make) => newRun(make(slider), duration));
+  for (const run of runs) run.steps = solve(run);
+  return { slider, runs, same: 0, known: Infinity };
+}
+
+// A slider whose inputs differ by roundings: its run shows how rounding errors grow.
 function twinOf(slider) {
   const size = (ROUNDINGS / 2) * Number.EPSILON * Math.SQRT2, twin = { ...slider };
   let count = 0;
@@ -42,48 +50,57 @@ function work() {
   clock.port2.postMessage(0);
 }
 
-// Solve one window of the run that is behind. Both are sent at their first global slips and at
-// their ends.
-function goOn({ runs, steps, all, started }) {
-  const [run, twin] = runs, i = Number(run.isDone || (!twin.isDone && twin.end < run.end));
-  runs[i].isDone = steps[i].next().done;
-  runs[i].isThere ||= runs[i].isDone || Boolean(runs[i].events.at(-1)?.isGlobal);
-  const isThere = run.isThere && twin.isThere, areDone = run.isDone && twin.isDone;
-  const isLate = performance.now() - started > PATIENCE;
-  if (areDone || (isThere && !job.isThere) || (isLate && !job.isShown)) send(areDone);
-  Object.assign(job, { isThere, isOver: areDone || (isThere && !all) });
+// Simulate one window of the run that is farthest behind. The first slider comes first, until both
+// its runs have their first global slips or are done. The runs are sent then, from time to time, and
+// at the end.
+function goOn({ pairs, all, tolerance, sent }) {
+  const runs = (job.isThere ? pairs : pairs.slice(0, 1)).flatMap((pair) => pair.runs);
+  const run = runs.reduce((a, b) => (a.isDone || (!b.isDone && b.end < a.end) ? b : a));
+  run.isDone = run.steps.next().done;
+  run.isThere ||= run.isDone || Boolean(run.events.at(-1)?.isGlobal);
+  pairs.forEach((pair) => compare(pair, tolerance));
+  const isThere = pairs[0].runs.every((run) => run.isThere || run.isDone);
+  const areDone = pairs.every(({ runs }) => runs.every(({ isDone }) => isDone));
+  const isOver = areDone || (isThere && !all), isFirst = isThere && !job.isThere;
+  const isLate = performance.now() - sent > PATIENCE;
+  Object.assign(job, { isThere, isOver });
+  if (isOver || isFirst || isLate) send(areDone);
 }
 
-// Until when a run and its twin have the same transitions, at the same time [s] to the tolerance.
-function agreement(run, twin, slider, tolerance) {
-  // A block that lets go has no net force then: whether it sticks again is a matter of rounding.
-  if (slider.mu_k === slider.mu_s) return run.events[0]?.onset ?? Infinity;
+// Compare the transitions of a run and its twin. The twin is done once they disagree: on a block, on a
+// mode, or on a time by more than the tolerance [s].
+function compare(pair, tolerance) {
+  const [run, twin] = pair.runs, n = Math.min(run.time.length, twin.time.length);
   const isSame = (i) => run.block[i] === twin.block[i] && run.mode[i] === twin.mode[i] &&
     Math.abs(run.time[i] - twin.time[i]) < APART * tolerance;
-  const n = Math.min(run.time.length, twin.time.length), areDone = run.isDone && twin.isDone;
-  let i = 0;
-  while (i < n && isSame(i)) i++;
-  if (i === n && (run.time.length === twin.time.length || !areDone)) return Infinity;
-  return Math.min(run.time[i] ?? Infinity, twin.time[i] ?? Infinity);
+  while (pair.same < n && isSame(pair.same)) pair.same++;
+  const areOver = run.isDone && twin.isDone && run.time.length !== twin.time.length;
+  if (pair.known < Infinity || (pair.same === n && !areOver)) return;
+  pair.known = Math.min(run.time[pair.same] ?? Infinity, twin.time[pair.same] ?? Infinity);
+  twin.isDone = true;
 }
 
-// What the page draws of a run so far: its transitions between the start and the end, which have
-// block 0, and its events.
 function send(isFinal) {
-  const { id, slider, tolerance, runs } = job, [run, twin] = runs, last = run.events.at(-1)?.last;
+  postMessage({ id: job.id, isFinal, runs: job.pairs.map(drawnOf) });
+  job.sent = performance.now();
+}
+// What the page draws of a run so far: its events and transitions, and rows for the start and the end,
+// which have block 0.
+function drawnOf({ slider, runs: [run], known }) {
   const { n, k, weights, strength } = run.chain, { events, end, force, stopped } = run;
-  const column = (name, first, final) => [first, ...run[name].slice(0, last ?? 0), final];
+  const last = events.at(-1)?.last ?? 0;
+  const column = (name, first, final) => [first, ...run[name].slice(0, last), final];
   const arrays = {
     time: Float64Array.from(column("time", 0, end)),
     load: Float64Array.from(column("load", 0, force[1])),
     block: Uint8Array.from(column("block", 0, 0)), mode: Int8Array.from(column("mode", 0, 0)),
   };
-  const known = agreement(run, twin, slider, tolerance), chain = { n, k, weights, strength };
-  postMessage({ id, isFinal, slider, ...chain, arrays, events, end, force, stopped, known });
-  job.isShown = true;
+  // Without a drop of friction a released block has no net force: rounding decides whether it sticks.
+  if (slider.mu_k === slider.mu_s) known = events[0]?.onset ?? Infinity;
+  return { slider, n, k, weights, strength, arrays, events, end, force, stopped, known };
 }
 
-// The motion in an event: times, forces and modes at the ends of small steps.
+// Compute the motion in an event: times, forces and modes at the ends of small steps.
 function* follow({ chain, duration, events }, { id, event }) {
   const { onset, end, force } = events[event], { n, tau } = chain;
   const mode = new Int8Array(n + 2), length = (end - onset) / tau;

@@ -1,7 +1,8 @@
-"""The methods a user would otherwise pick: one file each, one interface, one table.
+"""Other numerical methods for the chain, behind one interface, to compare with the exact
+solver.
 
-A row of methods.csv is a method: its module, the package it needs beyond the library's
-own, and how charts show it. Without that package the method is absent.
+Each row of methods.csv is a method: its module, the extra package that it needs, and how
+charts show it. A method whose package is not installed is left out.
 """
 
 import csv

@@ -1,5 +1,4 @@
-"""The interface of the methods: their result, their kind, the error of a diverged
-run."""
+"""The interface of the methods: a method, its result, and the error of a diverged run."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,10 +10,10 @@ from precursors.solver.simulate import TransitionLimitError
 
 @dataclass(frozen=True)
 class Result:
-    """The transitions that a method found, and its cost.
+    """The run that a method computed, and its cost.
 
-    `evaluations` is how often the forces of the whole chain were evaluated, whatever
-    the machine.
+    `evaluations` counts evaluations of the forces of the whole chain, a measure of cost
+    that does not depend on the machine.
     """
 
     run: Record
@@ -23,12 +22,12 @@ class Result:
 
 @dataclass(frozen=True)
 class Smooth:
-    """A fixed-step method while nothing switches: what is proved about it in theory.
+    """A fixed-step method between transitions, where theory predicts its errors.
 
-    `slide` (system, state, step [s], number of steps) makes steps with all blocks
-    sliding, see `fixed_step`. `limit` is the largest stable omega dt, for the highest
-    angular frequency omega of the chain; `energy_factor` is the factor on the energy of
-    a mode in one step, as a function of omega dt.
+    `slide(system, state, step [s], number of steps)` makes steps with all blocks
+    sliding (see `march.slide`). `limit` is the largest stable omega dt, for the highest
+    angular frequency omega of the chain. `energy_factor` is the factor by which a step
+    multiplies the energy of a mode, as a function of omega dt.
     """
 
     slide: Callable[..., None]
@@ -38,12 +37,12 @@ class Smooth:
 
 @dataclass(frozen=True)
 class Method:
-    """A method by its name, which is its row in methods.csv.
+    """A numerical method; `name` is its key in methods.csv.
 
-    `setting` is what sets the accuracy, with its unit: "step [s]", "relative
-    tolerance". `solve` is (chain, duration [s], value of the setting,
-    until) -> Result; `until` is None or "global slip". `smooth` is the method without
-    switching, where theory says something about it.
+    `setting` names the parameter that sets the accuracy, with its unit: "step [s]" or
+    "relative tolerance". `solve` is (chain, duration [s], value of the setting,
+    until) -> Result; `until` is None or "global slip". `smooth` is the method between
+    transitions, if theory predicts its errors.
     """
 
     name: str
@@ -61,7 +60,7 @@ class DivergedError(RuntimeError):
 
 
 def attempt(solve: Callable[..., Result], *arguments: Any) -> Result:
-    """Result of a method; of a run that breaks off, what there is."""
+    """Result of a method; if its run breaks off, the part that was computed."""
     try:
         return solve(*arguments)
     except (DivergedError, TransitionLimitError) as error:

@@ -1,7 +1,8 @@
-"""SUNDIALS CVODE with root functions, by scikit-sundae, restarted at each transition.
+"""SUNDIALS CVODE (in scikit-sundae) with root functions, restarted at each transition.
 
-A. C. Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363. The chain is not stiff
-between transitions, for which CVODE's documentation recommends the Adams formulas.
+A. C. Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363. The method is Adams', which
+CVODE's documentation recommends for problems that are not stiff, as the chain between
+transitions.
 """
 
 import numpy as np
@@ -16,14 +17,14 @@ from maegawa2010.methods.events import (
 )
 from precursors.model.chain import Chain, FloatArray
 
-EVENT_FOUND = 2
+ROOT_RETURN = 2  # status of CVODE at a root of an event function
 
 
 def solve_cvode(
     chain: Chain, duration: float, tolerance: float, until: str | None = None
 ) -> Result:
-    """Run a chain by CVODE; rtol is the tolerance, atol the same number in N and N/tau
-    (see `events`).
+    """Run a chain with CVODE; the tolerance is rtol, and atol in N and N/tau (see
+    `events`).
 
     Raises
     ------
@@ -62,7 +63,7 @@ def solve_cvode(
             raise RuntimeError(f"CVODE at t = {motion.onset:.9g} s: {solution.message}")
         motion.y[:] = solution.y
         event = -1
-        if solution.status == EVENT_FOUND:
+        if solution.status == ROOT_RETURN:
             event = int(np.flatnonzero(solution.i_events[-1])[0])
         return float(solution.t), event
 

@@ -1,4 +1,5 @@
-"""Equations of motion while nothing switches (Eqs. 2-6), and stick and slip (Eq. 5).
+"""Equations of motion between transitions (Eqs. 2-6), and conditions of stick and slip
+(Eq. 5).
 
     dT_i/dt = c_i (v_{i-1} - v_i),
     m dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i    where block i slides,
@@ -28,14 +29,13 @@ def net_force(y, i):
 
 @inner
 def by_mode(_system, state, i, net, velocity):
-    """Velocity of block i as the springs see it, and its acceleration: friction is that
-    of its mode."""
+    """Friction law by the mode of block i: its velocity and its acceleration."""
     return velocity, state[MOBILITY, i] * (net - state[FRICTION, i])
 
 
 @inner
 def rates(friction, system, state, last, y, rate):
-    """Rates of a state y under a law of friction (Eqs. 2-6); blocks ahead of 1..last
+    """Rates of change of a state y under a friction law (Eqs. 2-6); blocks beyond `last`
     rest."""
     behind = y[VELOCITY, 0]
     for i in range(1, last + 1):
@@ -50,8 +50,7 @@ def rates(friction, system, state, last, y, rate):
 
 @inner
 def copy(y, last, result):
-    """Copy spring forces and velocities up to the next after the last block that
-    slides."""
+    """Copy spring forces and velocities of blocks 1..last + 1."""
     for i in range(1, last + 2):
         result[FORCE, i] = y[FORCE, i]
         result[VELOCITY, i] = y[VELOCITY, i]
@@ -59,7 +58,7 @@ def copy(y, last, result):
 
 @inner
 def accelerate(state, last, h):
-    """Change the velocities of blocks 1..last by h times the acceleration."""
+    """Change the velocities of blocks 1..last by h times their accelerations."""
     for i in range(1, last + 1):
         state[VELOCITY, i] += (
             h * state[MOBILITY, i] * (net_force(state, i) - state[FRICTION, i])
@@ -68,7 +67,7 @@ def accelerate(state, last, h):
 
 @inner
 def stretch(system, state, last, h):
-    """Change the spring forces by what blocks 1..last move in a time h at their
+    """Change the spring forces by the motion of blocks 1..last during a time h at their
     velocities."""
     for i in range(1, last + 1):
         state[FORCE, i] += (
@@ -82,8 +81,8 @@ def solve_springs(system, state, last, weight, result, factor):
     """Solve x_i = r_i + weight / m (c_i (x_{i-1} - x_i) - c_{i+1} (x_i - x_{i+1})) for
     blocks 1..last.
 
-    `result` is r and becomes x, by elimination of the tridiagonal system; x_0 is given,
-    and x_i = r_i where block i sticks.
+    `result` holds r and is replaced by x (elimination of a tridiagonal system). x_0 is
+    given, and x_i = r_i if block i sticks.
     """
     spring = system[SPRING]
     mobility = state[MOBILITY]
@@ -104,8 +103,8 @@ def solve_springs(system, state, last, weight, result, factor):
 
 @inner
 def event_function(system, state, y, i):
-    """Event function of block i, positive while it keeps its mode in a state y: its
-    velocity along the mode, or its margin [N]."""
+    """Event function of block i in a state y, positive while the block keeps its mode:
+    its velocity in the direction of the mode, or its margin mu_s w - |F| [N]."""
     if state[MODE, i] != 0.0:
         return state[MODE, i] * y[VELOCITY, i]
     return system[STRENGTH, i] - abs(net_force(y, i))
@@ -113,6 +112,6 @@ def event_function(system, state, y, i):
 
 @inner
 def move_by(system, state, i, mode):
-    """Give a block the mobility and the friction of a mode."""
+    """Set the mobility and the friction of a block to those of a mode."""
     state[MOBILITY, i] = system[INVERSE_MASS, i] if mode != 0 else 0.0
     state[FRICTION, i] = mode * system[KINETIC, i]

@@ -1,14 +1,15 @@
-"""State, equations and event functions for third-party solvers, and the switching.
+"""State, equations, event functions and transitions for third-party solvers.
 
 Such a solver gets y = (T_1..T_N, v_1..v_N) in N and N/tau, without the columns of the
-drive and of the free end, which would count in its error norm. Its relative tolerance
-means the same at 0 s and at 10 s, as each slip event has its own time, counted from its
-onset in tau.
+drive and of the free end, which would count in its error norm. Time is counted in tau
+from the onset of each slip event, so that a relative tolerance means the same at 0 s and
+at 10 s.
 
 An event function falls through zero at a transition. Function 2 i (i from 0) is the
 velocity of block i + 1 in the direction of its mode while it slides, and its margin
-mu_s w - F against being released forward while it sticks; function 2 i + 1 is its
-margin against being released backward."""
+mu_s w - F against slipping forward while it sticks. Function 2 i + 1 is its margin
+against slipping backward.
+"""
 
 import math
 from collections.abc import Callable
@@ -44,22 +45,21 @@ from maegawa2010.methods.march import run_of, with_room
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.simulate import TransitionLimitError
 
-# A block that starts gets this velocity [N/tau] in the direction of its acceleration.
-# From exactly zero, a solver that brackets the stop within its first step takes the
-# start for the root: SciPy's brentq returns it and the block never gets away; heyoka's
-# finds it, drops it for its direction and misses the stop.
+# A block that starts gets this velocity [N/tau] in the direction of its acceleration. If
+# it were zero and the block stopped within the first step, a solver would take the start
+# for the root: with SciPy the block would never move, and heyoka would miss the stop.
 NUDGE = math.sqrt(np.finfo(float).tiny)
-# More transitions per block at one instant are a solver that has lost its way.
+# With more transitions per block at one instant, the solver makes no progress.
 MAX_AT_ONCE = 8
-# Rows of the settings: the rows of the state from MODE on, and 1 for blocks that stick.
+# Row of `EventMotion.settings` that is 1 for blocks that stick.
 STICKS = 3
 
 
 class EventMotion:
-    """A chain in motion, with the numbers that a solver carries, or keeps itself.
+    """A chain in motion, with the arrays of a third-party solver.
 
-    `y`, shape (2 N,), is the state; `settings` is what each block does: the rows MODE,
-    MOBILITY and FRICTION of `columns`, and STICKS.
+    `y`, shape (2 N,), is the state. The rows of `settings` are MODE, MOBILITY and
+    FRICTION of `columns`, and STICKS.
     """
 
     def __init__(self, chain: Chain, duration: float, until: str | None) -> None:
@@ -74,8 +74,7 @@ class EventMotion:
         self.evaluations = 0
 
     def put(self, modes: ArrayLike, forces: ArrayLike, velocities: ArrayLike) -> None:
-        """Put the blocks into modes, the springs under forces [N], and give velocities
-        [N/tau], each (N,)."""
+        """Set modes, spring forces [N] and velocities [N/tau], each of shape (N,)."""
         set_modes(self.system, self.state, modes)
         self.y[:] = np.concatenate([forces, velocities])
         sliding = np.flatnonzero(self.state[MODE])
@@ -84,32 +83,32 @@ class EventMotion:
         self.motion.progress["last"] = sliding.max(initial=0)
 
     def begin(self) -> bool:
-        """Wait in closed form until block 1 slides; False if the run ends before or
-        while a block slides."""
+        """Advance the run in closed form until block 1 slides; False if a block still
+        slides, or the run ends before."""
         return not self.slides and self.switch(-1, 0.0)
 
     @property
     def onset(self) -> float:
-        """Onset of the present or last slip event [s]."""
+        """Onset of the current or last slip event [s]."""
         return float(self.motion.progress["onset"][0])
 
     @property
     def remaining(self) -> float:
-        """Time from the onset of the present event to the end of the run [tau]."""
+        """Time from the onset of the current event to the end of the run [tau]."""
         return float(self.motion.progress["remaining"][0])
 
     def rates(self, _time: float, y: FloatArray) -> FloatArray:
-        """Right-hand side of the equations of motion in a state y."""
+        """Right-hand side of the equations of motion for a state y."""
         result = np.empty_like(y)
         rates_of(y, self.system, self.state, result)
         return result
 
     def switch(self, event: int, elapsed: float) -> bool:
-        """Make the transition of an event function that has reached zero, and any that
-        is overdue with it.
+        """Make the transition of an event function that has reached zero, and all others
+        that are due at the same time.
 
         Returns whether a block still slides; if none does, the slip event has ended.
-        Event -1 is the wait.
+        Event -1 stands for the wait until block 1 slides.
         """
         status = go_on(*self.motion, self.y, self.settings, event, elapsed)
         self.slides = status == MOVING
@@ -125,8 +124,7 @@ class EventMotion:
         return self.slides
 
     def run(self) -> Result:
-        """Transitions and cost so far: of a run that is over, or goes on to its end in
-        its present modes."""
+        """Result so far; if blocks still slide, they do so until the end of the run."""
         if self.slides:
             self.motion.progress["elapsed"] = self.remaining
             self.motion.progress["status"] = FINISHED
@@ -136,12 +134,12 @@ class EventMotion:
 def march_restarting(
     motion: EventMotion, next_transition: Callable[[float], tuple[float, int]]
 ) -> Result:
-    """Run a chain by a solver that is started anew at each transition.
+    """Run a chain with a solver that is restarted at each transition.
 
     `next_transition(time)` integrates the state in `motion` from a time [tau] to the
-    next root of an event function. It returns the time of that and the function's
-    number, or the end of the run and -1. If another has fired at the same instant, it
-    is overdue after this one or fires again at once.
+    next root of an event function. It returns the time of the root and the number of the
+    function, or the end of the run and -1. A second event at the same instant is made
+    with the first, or fires again immediately.
     """
     while motion.begin():
         time = 0.0
@@ -154,7 +152,7 @@ def march_restarting(
 
 @inner
 def take(state, y):
-    """Take over a solver's state."""
+    """Copy a solver's state y into the columns of `state`."""
     n = state.shape[1] - 2
     for i in range(n):
         state[FORCE, i + 1] = y[i]
@@ -175,7 +173,7 @@ def rates_of(y, system, state, result):
 
 @outer
 def event_functions(y, system, state, result):
-    """All event functions, shape (2 N,); what cannot happen is 1."""
+    """All event functions, shape (2 N,); those of impossible transitions are 1."""
     take(state, y)
     for i in range(1, state.shape[1] - 1):
         slides = state[MODE, i] != 0.0
@@ -187,7 +185,7 @@ def event_functions(y, system, state, result):
 
 
 def jacobian_of(system: FloatArray, state: FloatArray) -> FloatArray:
-    """Matrix of the equations of motion, shape (2 N, 2 N)."""
+    """Jacobian of the equations of motion, shape (2 N, 2 N)."""
     n = state.shape[1] - 2
     net = np.eye(n) - np.eye(n, k=1)
     result = np.zeros((2 * n, 2 * n))
@@ -198,11 +196,11 @@ def jacobian_of(system: FloatArray, state: FloatArray) -> FloatArray:
 
 @outer
 def go_on(system, state, progress, record, y, settings, event, elapsed):
-    """Make the transition of an event and those overdue with it, or wait (-1) until
-    block 1 slides.
+    """Make the transition of an event and those due at the same time, or wait (event -1)
+    until block 1 slides.
 
-    Returns MOVING where a block slides, PAUSED where the record is full, and LOST where
-    transitions repeat without time going on.
+    Returns MOVING if a block slides, PAUSED if the record is full, LOST if transitions
+    repeat without time advancing, and another status if no block slides.
     """
     motion = SteppedMotion(system, state, progress, record)
     n = state.shape[1] - 2

@@ -1,4 +1,4 @@
-"""The exact solver as one of the methods."""
+"""The exact solver with the interface of the methods."""
 
 from maegawa2010.methods.common import Method, Result
 from precursors.model.chain import Chain
@@ -9,8 +9,8 @@ from precursors.solver.simulate import simulate
 def solve(
     chain: Chain, duration: float, _value: float = 0.0, until: Until = None
 ) -> Result:
-    """Simulate exactly; nothing sets the accuracy. Each derivative of a Taylor series
-    is an evaluation."""
+    """Simulate exactly; there is no setting of accuracy. Each derivative of a Taylor
+    series counts as an evaluation."""
     run = simulate(chain, duration, until)
     return Result(run, round(run.evaluations))
 

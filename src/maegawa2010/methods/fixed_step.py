@@ -1,9 +1,10 @@
-"""A chain in motion: its transitions, its waiting while all blocks stick, and its run
-from rest to the end.
+"""A chain in motion, for compiled methods: transitions, waits while all blocks stick, and
+the end of a run.
 
-A compiled method is a function (motion, step). It works in legs, the steps up to the
-next change of a mode, while there is one to begin: `begin_leg` waits while all blocks
-stick, and ends the run."""
+A compiled method is a function (motion, step). A leg is a series of steps up to the next
+change of a mode. The method makes legs while `begin_leg` is true; this function also
+advances the run in closed form while all blocks stick.
+"""
 
 import math
 from typing import NamedTuple
@@ -30,14 +31,14 @@ from precursors.model.checks import checked_span
 from precursors.solver.record import TRANSITION
 
 FINISHED, GLOBAL_SLIP, PAUSED, DIVERGED, LOST, MOVING = range(6)
-# A leg has at most so many steps, and a call so many legs, so that Ctrl-C is heard
-# within a second or so.
+# Largest number of steps in a leg and of legs in a call, so that Ctrl-C takes effect
+# within about a second.
 STEPS_IN_LEG = 1000
 LEGS_PER_CALL = 5000
 FIRST_ROOM = 4096  # transitions
 
-# Short times since the onset of a slip event, in the unit of the system, are not
-# rounded as long ones.
+# Progress of a run. Times are counted from the onset of a slip event, in the unit of time
+# of the system, because short times have smaller rounding errors.
 PROGRESS = np.dtype(
     [
         ("unit", "f8"),  # [s]
@@ -47,16 +48,16 @@ PROGRESS = np.dtype(
         ("onset", "f8"),  # of the slip event [s]
         ("remaining", "f8"),  # from the onset to the end of the run [unit]
         ("elapsed", "f8"),  # since the onset [unit]
-        ("noted", "f8"),  # the same at the last transition [unit]
+        ("noted", "f8"),  # `elapsed` at the last transition [unit]
         ("waited", "f8"),  # from the last transition to the onset [s]
         ("transitions", "i8"),
-        ("at_once", "i8"),  # transitions since time last went on
+        ("at_once", "i8"),  # transitions since time last advanced
         ("sliding", "i8"),  # number of sliding blocks
         ("was_global", "i8"),  # whether all blocks have slid at the same instant
         ("last", "i8"),  # farthest sliding block
         ("evaluations", "i8"),
-        ("legs", "i8"),  # begun since Python called
-        ("status", "i8"),  # MOVING while there is a leg to begin, or why not
+        ("legs", "i8"),  # begun in this call
+        ("status", "i8"),  # MOVING, or why no further leg begins
     ]
 )
 # A transition, and the time from the one before [s].
@@ -64,8 +65,8 @@ RECORD = np.dtype([*TRANSITION.descr, ("interval", "f8")])
 
 
 class SteppedMotion(NamedTuple):
-    """A chain in motion: what stays, what changes, how far it is (one row), and its
-    transitions so far."""
+    """A chain in motion: `system` and `state` (see `columns`), the progress (one row), and
+    the record of transitions."""
 
     system: FloatArray
     state: FloatArray
@@ -79,7 +80,7 @@ def motion_from_rest(
     until: str | None,
     scaled: bool = False,
 ) -> SteppedMotion:
-    """A chain at the start of its run, see `march`."""
+    """A chain at the start of a run; for the arguments see `march`."""
     progress = np.zeros(1, PROGRESS)
     progress["duration"] = checked_span(duration, until)
     progress["until_global"] = until is not None
@@ -98,8 +99,8 @@ def motion_from_rest(
 
 @apart
 def change_mode(motion, i, new):
-    """Set a block's new mode and record it; the number of sliding blocks and the
-    farthest one follow."""
+    """Set a block's new mode, record the transition, and update the number of sliding
+    blocks and the farthest one."""
     system = motion.system
     state = motion.state
     progress = motion.progress[0]
@@ -115,7 +116,7 @@ def change_mode(motion, i, new):
 
 @inner
 def record_transition(motion, i, new):
-    """Write down a transition."""
+    """Append a transition to the record."""
     progress = motion.progress[0]
     row = motion.record[progress.transitions]
     row.time = progress.onset + progress.elapsed * progress.unit
@@ -133,8 +134,8 @@ def record_transition(motion, i, new):
 
 @apart
 def change_state(motion, i):
-    """Release a stuck block in the direction of its force, or stop a sliding one, which
-    slides on along a force larger than mu_s w (Eq. 5)."""
+    """Release a stuck block in the direction of its net force, or stop a sliding block,
+    which slips again if the force exceeds mu_s w (Eq. 5)."""
     state = motion.state
     net = net_force(state, i)
     old = int(state[MODE, i])
@@ -149,15 +150,14 @@ def change_state(motion, i):
 
 @inner
 def feels(state, last):
-    """Farthest block whose force can change: beyond the next after the last that
-    slides, none does."""
+    """Farthest block whose net force can change: the next after the last sliding one."""
     return min(last + 1, state.shape[1] - 2)
 
 
 @inner
 def all_keep_their_modes(system, state, last):
-    """Whether no sliding block's velocity has changed its sign and no stuck block's
-    force exceeds mu_s w."""
+    """Whether no sliding block's velocity has changed sign and no stuck block's force
+    exceeds mu_s w."""
     for i in range(1, feels(state, last) + 1):  # noqa: SIM110
         if not event_function(system, state, state, i) >= 0.0:
             return False
@@ -166,8 +166,8 @@ def all_keep_their_modes(system, state, last):
 
 @apart
 def switch(motion, first):
-    """Change the state of a block at its event (or of none, 0), then of all that do not
-    keep their modes."""
+    """Change the mode of block `first` (0: of none), whose event function is zero, then
+    of all blocks whose event functions are negative."""
     system = motion.system
     state = motion.state
     farthest = feels(state, motion.progress[0].last)
@@ -189,15 +189,15 @@ def step_length(progress, step):
 
 @apart
 def rest(motion):
-    """All blocks stick: end the run, or wait until block 1 is at its limit.
+    """While all blocks stick, end the run or wait until block 1 reaches its limit.
 
-    Returns MOVING where the run goes on.
+    Returns MOVING if the run continues, or why it ends.
     """
     state = motion.state
     progress = motion.progress[0]
     if progress.was_global and progress.until_global:
         return GLOBAL_SLIP
-    # Count the time from now on.
+    # Time is counted from the present instant on.
     progress.onset += progress.elapsed * progress.unit
     progress.waited += (progress.elapsed - progress.noted) * progress.unit
     progress.elapsed = progress.noted = 0.0
@@ -216,8 +216,8 @@ def rest(motion):
 
 @inner
 def obstacle(motion):
-    """Why no step can be made: a full record, or numbers that have overflowed; MOVING
-    if one can."""
+    """Why no step can be made: PAUSED if the record is full, DIVERGED if numbers have
+    overflowed, or else MOVING."""
     if motion.progress[0].transitions + motion.state.shape[1] > motion.record.shape[0]:
         return PAUSED
     return MOVING if math.isfinite(motion.state[FORCE, 1]) else DIVERGED
@@ -225,9 +225,9 @@ def obstacle(motion):
 
 @apart
 def begin_leg(motion):
-    """Whether to make the steps of another leg; `status` says why not.
+    """Whether to make another leg; if not, `status` says why.
 
-    Where all blocks stick, it waits and lets block 1 slide.
+    While all blocks stick, the wait is skipped and block 1 is released.
     """
     progress = motion.progress[0]
     status = obstacle(motion) if progress.legs != LEGS_PER_CALL else PAUSED
@@ -242,18 +242,17 @@ def begin_leg(motion):
     return status == MOVING
 
 
-# Methods that switch once a step
+# Methods that make transitions at the end of a step only
 
 
 @template
 def run_in_steps(motion, step, advance, at_start, work):
-    """Run in steps.
+    """Run with a method that makes transitions at the end of a step only.
 
-    `advance(system, state, last, h, work)` makes a step of h [s] and returns the
-    evaluations made; it needs `at_start` more of them at the start of a leg. A block
-    whose velocity has changed its sign at the end of a step is stopped there, and
-    sticks or turns round; a stuck block whose force exceeds mu_s w at the end of a step
-    is released there.
+    `advance(system, state, last, h, work)` makes a step of h [s] and returns the number
+    of evaluations; a leg starts with `at_start` further ones. At the end of a step, a
+    block whose velocity has changed sign stops, and sticks or turns round; a stuck block
+    whose force exceeds mu_s w is released.
     """
     system = motion.system
     state = motion.state

@@ -2,8 +2,8 @@
 for events.
 
 F. Biscani and D. Izzo, MNRAS 504 (2021) 2614 and 513 (2022) 4833. One integrator is
-compiled for each chain and tolerance: what the blocks do are its runtime parameters, so
-that a transition compiles nothing. The switching is done in the events' callbacks, so
+compiled for each chain and tolerance. The modes of the blocks are its runtime parameters,
+so that a transition compiles nothing. Transitions are made in the events' callbacks, so
 that a slip event is one call.
 """
 
@@ -18,7 +18,7 @@ from maegawa2010.methods.common import Method, Result
 from maegawa2010.methods.events import EventMotion
 from precursors.model.chain import Chain
 
-# Beyond it the code is compiled in compact mode, which heyoka's documentation
+# Number of blocks above which code is compiled in compact mode, as heyoka's documentation
 # recommends for large systems.
 LARGE = 20
 
@@ -26,8 +26,8 @@ LARGE = 20
 def integrator_of(
     chain: Chain, tolerance: float, callback: Callable[[int], Any]
 ) -> Any:
-    """heyoka's integrator of a chain: `callback(event)` is what it calls at an event
-    function's root."""
+    """heyoka's integrator for a chain; `callback(event)` makes the callback for the root
+    of an event function."""
     import heyoka as hy
 
     n = chain.n_blocks
@@ -64,13 +64,13 @@ def integrator_of(
 
 @lru_cache(maxsize=32)
 def _integrator(chain: Chain, tolerance: float) -> tuple[Any, list[EventMotion]]:
-    """heyoka's integrator of a chain, and a list of the one motion that it carries at
-    present."""
+    """heyoka's integrator for a chain, and a list with the motion that it currently
+    integrates."""
     present: list[EventMotion] = []
 
     def callback(event: int) -> Any:
         def switch(solver: Any, _direction: int) -> bool:
-            # The function that fired means something else from now on: its cooldown
+            # The event function has another meaning after the transition: its cooldown
             # must not hide a root.
             solver.reset_cooldowns()
             return present[0].switch(event, solver.time)
@@ -86,10 +86,10 @@ def solve_heyoka(
     tolerance: float,
     until: str | None = None,
 ) -> Result:
-    """Run a chain by heyoka.py; the tolerance sets the order of the series too, 0 is
-    heyoka's own, rounding.
+    """Run a chain with heyoka.py. The tolerance also sets the order of the series; 0
+    stands for heyoka's default, machine precision.
 
-    A step of a series of order p counts as p evaluations: each derivative applies the
+    A step of order p counts as p evaluations, because each derivative applies the
     equations once.
     """
     solver, present = _integrator(chain, float(tolerance))

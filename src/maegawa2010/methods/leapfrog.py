@@ -1,8 +1,8 @@
-"""Velocity Verlet (leapfrog): fixed steps of one evaluation, which keep a mode's energy up
-to their limit (L. Verlet, Phys. Rev. 159, 1967, 98-103).
+"""Velocity Verlet (leapfrog): fixed steps with one evaluation, which conserve the energy
+of a mode up to the stability limit (L. Verlet, Phys. Rev. 159, 1967, 98-103).
 
-Stick and slip are switched once a step, as with `rk4`; while all blocks stick the wait
-is in closed form.
+Transitions are made at the end of a step, as with `rk4`; waits while all blocks stick are
+skipped in closed form.
 """
 
 import math
@@ -16,14 +16,14 @@ LIMIT = 2.0  # largest stable omega dt
 
 
 def energy_factor(z: float) -> float:
-    """Factor on the energy in a step in the long run, z = omega dt: 1 up to the
-    limit."""
+    """Mean factor on the energy of a mode in a step, z = omega dt: 1 up to the limit."""
     return math.exp(2.0 * math.acosh(max(0.5 * z * z - 1.0, 1.0)))
 
 
 @inner
 def leapfrog_step(system, state, last, h, _work):
-    """Half a step of the forces, a step of the motion, half a step of the forces."""
+    """Make a step: half a step of the velocities, a step of the springs, half a step of the
+    velocities."""
     accelerate(state, last, 0.5 * h)
     stretch(system, state, last, h)
     accelerate(state, last, 0.5 * h)
@@ -34,8 +34,8 @@ def leapfrog_step(system, state, last, h, _work):
 def run_leapfrog(motion, step):
     """Run with a step [s], see `run_in_steps`.
 
-    The forces at the end of a step are those at the start of the next: one evaluation
-    a step, and one more where friction has changed in between.
+    The forces at the end of a step serve at the start of the next: one evaluation per
+    step, and one more after each transition.
     """
     run_in_steps(motion, step, leapfrog_step, 1, 0.0)
 

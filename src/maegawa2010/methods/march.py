@@ -1,4 +1,4 @@
-"""Runs of compiled methods from rest, and the row that a fixed-step method needs."""
+"""Run compiled fixed-step methods, and make a `Method` of them."""
 
 from collections.abc import Callable
 from functools import partial
@@ -31,15 +31,15 @@ def march(
     until: str | None = None,
     max_transitions: int = MAX_TRANSITIONS,
 ) -> Result:
-    """Run a compiled method from rest: `method` is (motion, step [s]).
+    """Run a compiled method, a function (motion, step [s]), from rest.
 
-    Other arguments: see `precursors.simulate`.
+    For the other arguments see `precursors.simulate`.
 
     Raises
     ------
     ValueError, DivergedError, TransitionLimitError
-        If an argument is out of range, the numbers overflow, or there are more than
-        `max_transitions`.
+        If an argument is out of range, the numbers overflow, or there are more
+        transitions than `max_transitions`.
     """
     positive("step", step, "s")
     motion = motion_from_rest(chain, duration, until)
@@ -68,8 +68,8 @@ def slide(
     step: float,
     n_steps: int,
 ) -> None:
-    """Make n steps [s] of blocks that slide as `sliding_forward`, without switching, by
-    the code of `march`."""
+    """Make `n_steps` steps [s] without transitions from a state of `sliding_forward`, with
+    the same code as `march`."""
     progress = np.zeros(1, PROGRESS)
     progress["sliding"] = progress["last"] = state.shape[1] - 2
     progress["remaining"] = n_steps * step
@@ -80,7 +80,7 @@ def slide(
 
 
 def with_room(motion: SteppedMotion) -> SteppedMotion:
-    """The motion with a longer record where its own is full."""
+    """The motion, with a longer record if its own is full."""
     if motion.progress["transitions"][0] + motion.state.shape[1] <= len(motion.record):
         return motion
     return motion._replace(
@@ -89,13 +89,13 @@ def with_room(motion: SteppedMotion) -> SteppedMotion:
 
 
 def run_of(motion: SteppedMotion, chain: Chain) -> Record:
-    """The run so far; of a diverged one what is finite."""
+    """The run so far; if it diverged, its finite part."""
     progress = motion.progress[0]
     rows = motion.record[: progress["transitions"]]
     unit = progress["unit"]
     n = int(np.isfinite(rows["tangential_load"]).sum())
     since = progress["waited"] + (progress["elapsed"] - progress["noted"]) * unit
-    # The last interval includes those of the transitions that are left out.
+    # The last interval includes the intervals of transitions that are left out.
     intervals = [*rows["interval"][:n], rows["interval"][n:].sum() + since]
     reached = (
         progress["duration"]
@@ -111,10 +111,8 @@ def fixed_step(
     method: Callable[..., None],
     smooth: tuple[float, Callable[[float], float]] | None = None,
 ) -> Method:
-    """Make a compiled fixed-step method.
-
-    `method` is that of `march`; `smooth` is the rest of `Smooth`.
-    """
+    """Make a `Method` of a compiled fixed-step method (see `march`); `smooth` has `limit`
+    and `energy_factor` of `Smooth`."""
     return Method(
         name,
         "step [s]",

@@ -1,18 +1,19 @@
-"""Moreau-Jean time stepping: implicit springs, friction as a set-valued law of the
-velocity at a step's end.
+"""Moreau-Jean time stepping: implicit springs, and friction as a set-valued law of the
+velocity at the end of a step.
 
 M. Jean, Comput. Methods Appl. Mech. Engrg. 177 (1999) 235-257; V. Acary and B.
-Brogliato, Numerical Methods for Nonsmooth Dynamical Systems (2008). With the spring
-forces at the part theta of the step,
+Brogliato, Numerical Methods for Nonsmooth Dynamical Systems (2008). A prime marks the end
+of a step; theta and the spring forces T* belong to a time within it:
 
     m (v' - v) = h (T*_i - T*_{i+1} - R_i),
     T* = T + theta h c_i (u_{i-1} - u_i),  u = theta v' + (1 - theta) v,
 
-the friction R_i of a block is mode_i mu_k w_i where v' has the sign of its mode, and
-anything up to mu_s w_i where v' = 0. As mu_s > mu_k both can be true: a block that
-stuck at the last step sticks, one that slid slides. The modes are found by an active
-set: solve the tridiagonal system for the blocks that slide, stop those that go against
-their mode, release those whose R exceeds mu_s w, until nothing changes.
+The friction R_i of a block is mode_i mu_k w_i if v' has the sign of its mode, and any
+value up to mu_s w_i if v' = 0. Because mu_s > mu_k both can be solutions; then a block
+that stuck in the last step sticks, and one that slid slides. An active-set iteration
+determines the modes: it solves the tridiagonal system for the sliding blocks, stops those
+that would move against their mode, and releases those whose R exceeds mu_s w, until no
+mode changes.
 """
 
 import math
@@ -41,19 +42,19 @@ from maegawa2010.methods.fixed_step import (
 )
 from maegawa2010.methods.march import fixed_step
 
-# The active set settles in two or three solutions; where it goes in a circle, this many
-# are enough.
+# The active set usually settles after two or three solutions. Where it would cycle, the
+# iteration stops after this many.
 SOLUTIONS_PER_BLOCK = 4
 
 
 def energy_factor(z: float, theta: float) -> float:
-    """Factor on the energy in a step, z = omega dt: 1 at theta = 1/2, less above."""
+    """Factor on the energy of a mode in a step, z = omega dt: 1 at theta = 1/2, less above."""
     return (1.0 + ((1.0 - theta) * z) ** 2) / (1.0 + (theta * z) ** 2)
 
 
 @inner
 def explicit_forces(system, state, last, h, theta, known):
-    """Spring forces T* without the share of the new velocities."""
+    """The part of the spring forces T* that does not depend on the new velocities."""
     force = state[FORCE]
     velocity = state[VELOCITY]
     spring = system[SPRING]
@@ -66,7 +67,7 @@ def explicit_forces(system, state, last, h, theta, known):
 
 @inner
 def solve_velocities(system, state, last, h, theta, work):
-    """New velocities of the blocks 1..last that slide."""
+    """Compute the new velocities of blocks 1..last; stuck blocks have zero."""
     known, factor, new = work
     for i in range(1, last + 1):
         slides = h * state[MOBILITY, i]
@@ -77,7 +78,7 @@ def solve_velocities(system, state, last, h, theta, work):
 
 @inner
 def finish(system, state, last, h, theta, new):
-    """Take over the new velocities and stretch the springs."""
+    """Finish a step: set the new velocities and update the spring forces."""
     force = state[FORCE]
     velocity = state[VELOCITY]
     spring = system[SPRING]
@@ -90,7 +91,7 @@ def finish(system, state, last, h, theta, new):
 
 @inner
 def static_friction(system, state, i, h, theta, work):
-    """Friction R_i that keeps block i at v' = 0, or brings it there [N]."""
+    """Friction R_i that gives block i the velocity v' = 0 [N]."""
     known, _, new = work
     spring = system[SPRING]
     reach = theta * theta * h
@@ -101,8 +102,8 @@ def static_friction(system, state, i, h, theta, work):
 
 @inner
 def step_modes(system, state, last, h, theta, work, trial):
-    """Find modes and new velocities of a step; return the farthest sliding block and
-    the solutions made."""
+    """Determine the modes and new velocities of a step; return the farthest sliding block
+    and the number of solutions."""
     known, _, new = work
     explicit_forces(system, state, last, h, theta, known)
     most = SOLUTIONS_PER_BLOCK * (state.shape[1] - 1)
@@ -130,11 +131,11 @@ def step_modes(system, state, last, h, theta, work, trial):
 
 @outer
 def run_moreau_jean(motion, step, theta):
-    """Run in steps.
+    """Run with a step [s].
 
-    A block that turns round needs a step to stop in, whose friction brakes it: where
-    its springs overcome the static friction at the end of that step, it turns. Each
-    solution of the tridiagonal system counts as an evaluation.
+    A block that turns round first stops in a step; if its springs overcome static
+    friction at the end of that step, it then slides the other way. Each solution of the
+    tridiagonal system counts as an evaluation.
     """
     system = motion.system
     state = motion.state
@@ -166,8 +167,8 @@ def run_moreau_jean(motion, step, theta):
                 change_mode(motion, i, new)
 
 
-# theta = 1/2 is of order 2 while nothing switches, without damping; theta = 1 is of
-# order 1 and damps what is faster than a step.
+# Between transitions theta = 1/2 is of order 2 and does not damp; theta = 1 is of order 1
+# and damps motion that is faster than a step.
 METHODS = tuple(
     fixed_step(
         name,

@@ -1,10 +1,10 @@
-"""The classical Runge-Kutta method, by steps and to each event (W. Kutta, Z. Math.
-Phys. 46, 1901, 435-453).
+"""The classical Runge-Kutta method, with transitions at the end of a step or located
+within it (W. Kutta, Z. Math. Phys. 46, 1901, 435-453).
 
-By steps, stick and slip are switched at the end of each step. Located, a step ends
-where the first event function becomes zero: on the cubic through the values and rates
-at both ends of the step it is a cubic, too, whose first root `cubic_root` finds, also
-of two that are close together.
+`rk4` makes transitions at the end of a step. `rk4_located` ends a step where the first
+event function becomes zero. The state is interpolated by the cubic through its values and
+rates at both ends of the step, so an event function is a cubic too, and `cubic_root`
+gives its first root even if a second one is close.
 """
 
 import math
@@ -27,20 +27,20 @@ from maegawa2010.methods.march import fixed_step
 LIMIT = 2.0 * math.sqrt(2.0)  # largest stable omega dt
 STAGES = 4
 WEIGHTS = np.array([1.0, 2.0, 2.0, 1.0]) / 6.0
-# Of a root: a step of the search that ends it, and the most there are.
+# Search for a root: the step below which it ends, and the largest number of steps.
 CLOSE = 1e-15
 SEARCHES = 200
-NEVER = 2.0  # a part of the step beyond its end
+NEVER = 2.0  # a fraction of the step that lies beyond its end: no root
 
 
 def energy_factor(z: float) -> float:
-    """Factor on the energy of a mode in a step, z = omega dt: exp(i z) up to z^4."""
+    """Factor on the energy of a mode in a step, z = omega dt; RK4 has exp(i z) up to z^4."""
     return abs(1.0 + 1j * z - z**2 / 2.0 - 1j * z**3 / 6.0 + z**4 / 24.0) ** 2
 
 
 @inner
 def mean_slope(k, row, i):
-    """Rate that leads to the end of a step."""
+    """Weighted mean of the rates of the four stages of a step."""
     mean = 0.0
     for stage in range(STAGES):
         mean += WEIGHTS[stage] * k[stage, row, i]
@@ -49,8 +49,8 @@ def mean_slope(k, row, i):
 
 @inner
 def end_of_step(friction, system, state, last, h, k, end):
-    """State at the end of a step, and the rates k[1], k[2] and k[3] within it; k[0] is
-    known."""
+    """Compute the state at the end of a step, and the rates k[1] to k[3] of its stages
+    from k[0]."""
     for stage in range(1, STAGES):
         part = h if stage == STAGES - 1 else 0.5 * h
         for row in range(2):
@@ -64,7 +64,7 @@ def end_of_step(friction, system, state, last, h, k, end):
 
 @inner
 def rk4_step(friction, system, state, last, h, work):
-    """Make a step of blocks 1..last under a law of friction (see `equations.rates`)."""
+    """Make a step of blocks 1..last under a friction law (see `equations.rates`)."""
     rates(friction, system, state, last, state, work[0])
     end_of_step(friction, system, state, last, h, work, work[STAGES])
     copy(work[STAGES], last, state)
@@ -72,14 +72,14 @@ def rk4_step(friction, system, state, last, h, work):
 
 @inner
 def rk4_by_mode(system, state, last, h, work):
-    """Make a step of the chain; return its evaluations."""
+    """Make a step of blocks 1..last; return the number of evaluations."""
     rk4_step(by_mode, system, state, last, h, work)
     return STAGES
 
 
 @outer
 def run_rk4(motion, step):
-    """Run with a step [s], see `run_in_steps`."""
+    """Run with a step [s] (see `run_in_steps`)."""
     work = np.zeros((STAGES + 1, 2, motion.state.shape[1]))
     run_in_steps(motion, step, rk4_by_mode, 0, work)
 
@@ -89,10 +89,10 @@ def run_rk4(motion, step):
 
 @apart
 def cubic_root(c, limit):
-    """First root of c[0] + c[1] x + c[2] x^2 + c[3] x^3 in 0 <= x < limit <= 1, or
+    """First root of g = c[0] + c[1] x + c[2] x^2 + c[3] x^3 in 0 <= x < limit <= 1, or
     NEVER; c[0] >= 0.
 
-    With |g''| <= M the positive root of g + g' s - M s^2 / 2 is a step that passes no
+    If |g''| <= M, the positive root of g + g' s - M s^2 / 2 is a step that cannot pass a
     root of g.
     """
     if c[0] + min(c[1], 0.0) + min(c[2], 0.0) + min(c[3], 0.0) > 0.0:
@@ -114,8 +114,8 @@ def cubic_root(c, limit):
 
 @inner
 def interpolate(last, h, k, path):
-    """Coefficients of x, x^2 and x^3 in what changes up to the part x of a step, whose
-    last rates are k[STAGES]."""
+    """Coefficients of x, x^2 and x^3 in the change of the state up to the fraction x of a
+    step; the rates at its end are k[STAGES]."""
     for row in range(2):
         for i in range(1, last + 2):
             start = h * k[0, row, i]
@@ -128,7 +128,7 @@ def interpolate(last, h, k, path):
 
 @inner
 def first_event(system, state, last, path, c):
-    """Part of a step at which the first block changes its state, and the block."""
+    """Fraction of a step at which the first transition occurs, and its block (0: none)."""
     first = 1.0
     block = 0
     for i in range(1, feels(state, last) + 1):
@@ -153,7 +153,7 @@ def first_event(system, state, last, path, c):
 
 @inner
 def go_to(x, state, last, path):
-    """Go to the part x of a step."""
+    """Advance the state to the fraction x of a step."""
     for row in range(2):
         for i in range(1, last + 2):
             state[row, i] += x * (
@@ -163,7 +163,7 @@ def go_to(x, state, last, path):
 
 @outer
 def run_rk4_located(motion, step):
-    """Run with a step [s] to each event."""
+    """Run with a step [s], and locate each transition within its step."""
     system = motion.system
     state = motion.state
     progress = motion.progress[0]
@@ -182,8 +182,8 @@ def run_rk4_located(motion, step):
             rates(by_mode, system, state, last, end, k[STAGES])
             progress.evaluations += STAGES
             x = 1.0
-            # Where blocks change without time going on, rounding can decide in a
-            # circle: make a whole step.
+            # If modes change repeatedly without time advancing, rounding decides: make a
+            # whole step.
             if progress.at_once <= state.size:
                 interpolate(last, h, k, path)
                 x, block = first_event(system, state, last, path, c)

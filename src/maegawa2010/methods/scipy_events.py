@@ -1,10 +1,11 @@
 """SciPy's solve_ivp with terminal events, restarted at each transition.
 
-Events are the velocities of the blocks that slide and the margins of the stuck blocks
-beside them; elsewhere no force changes. SciPy looks for an event where its function has
-changed sign over a step, so a velocity that falls below zero and rises again within one
-step is missed without a warning. Shorter steps are one cure; the roots of each step's
-interpolation, as `rk4_located` finds them, are another."""
+Event functions are the velocities of sliding blocks and the margins of the stuck blocks
+beside them; no other forces change. SciPy looks for an event if its function has changed
+sign over a step, so a velocity that falls below zero and rises again within one step is
+missed without a warning. Shorter steps avoid this, and so does a search for roots of the
+interpolant, as in `rk4_located`.
+"""
 
 from collections.abc import Callable, Iterator
 from typing import Literal
@@ -28,14 +29,12 @@ def solve_scipy(
     until: str | None = None,
     solver: Literal["DOP853", "RK23"] = "DOP853",
 ) -> Result:
-    """Run a chain by a solver of SciPy; rtol is the tolerance, atol the same in N and
-    N/tau.
+    """Run a chain with a solver of SciPy; the tolerance is rtol, and atol in N and N/tau.
 
     Raises
     ------
     TransitionLimitError, RuntimeError
-        If transition follows transition without time going on, or SciPy reports a
-        failure.
+        If transitions repeat without time advancing, or SciPy reports a failure.
     """
     motion = EventMotion(chain, duration, until)
 
@@ -65,17 +64,17 @@ def solve_scipy(
 
 
 def watched(motion: EventMotion) -> Iterator[tuple[int, EventFunction]]:
-    """Numbers and functions of the events that can come next."""
+    """Yield number and function of each event that can occur next."""
     n = motion.chain.n_blocks
     mode = motion.state[MODE].tolist()
     strength = motion.system[STRENGTH].tolist()
     for block in range(1, n + 1):
-        found: list[EventFunction] = []
+        functions: list[EventFunction] = []
         if mode[block]:
-            found = [_velocity(n + block - 1, mode[block])]
+            functions = [_velocity(n + block - 1, mode[block])]
         elif mode[block - 1] or mode[block + 1]:
-            found = [_margin(n, block, strength[block], way) for way in (1.0, -1.0)]
-        for side, function in enumerate(found):
+            functions = [_margin(n, block, strength[block], way) for way in (1.0, -1.0)]
+        for side, function in enumerate(functions):
             vars(function).update(terminal=True, direction=FALLING)
             yield 2 * (block - 1) + side, function
 

@@ -1,12 +1,11 @@
-"""Fig. 9: the analytical model, a chain of blocks on a rigid plane that is pushed
-through a spring."""
+"""Fig. 9: the model, a chain of blocks on a rigid plane that is pushed through a spring."""
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from precursors.figures import style
 
-# All lengths are mm on paper.
+# Lengths are in mm on paper.
 HEIGHT = 38.0
 PLANE = 12.0
 BLOCK = 9.0
@@ -15,13 +14,13 @@ TOP = PLANE + BLOCK
 PUSH = TOP - 2.5  # height of the springs
 DRIVE = 3.5
 EDGES = [24.0, 75.0]  # trailing and leading edge of the slider
-BLOCKS = {"1": EDGES[0], "2": 41.0, "N": EDGES[1] - BLOCK}  # by their left sides
+BLOCKS = {"1": EDGES[0], "2": 41.0, "N": EDGES[1] - BLOCK}  # their left sides
 SPRINGS = {"K": (DRIVE, 24.0), "k": (33.0, 41.0), r"k \;\cdots\; k": (50.0, 66.0)}
 
 
 def draw() -> Figure:
-    """Draw the chain of Eqs. 2-8; arrows of forces and positions point to their
-    positive sense."""
+    """Draw the chain of Eqs. 2-8; arrows of forces and positions point in the positive
+    direction."""
     with style.page(style.COLUMN_MM, HEIGHT) as figure:
         axes = figure.subplots()
         axes.set(xlim=(1, style.COLUMN_MM - 1), ylim=(1, HEIGHT - 1), aspect="equal")

@@ -1,4 +1,4 @@
-"""A claim: a statement of the paper, and the function that finds whether the model
+"""A claim is a statement of the paper and a function that decides whether the model
 agrees."""
 
 from collections.abc import Callable, Mapping
@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike
 from maegawa2010.paper.tables import Tables
 from maegawa2010.support.run_statistics import share_interval
 
-# Verdicts: EXACT is a claim that holds in the run, but in too few draws around it.
+# Verdicts. EXACT: the claim holds in the run with exactly the paper's inputs, but in too
+# few draws around it.
 HOLDS = "holds"
 EXACT = "exact"
 FAILS = "fails"
@@ -23,26 +24,26 @@ WORDS = {
     FAILS: "does not hold",
     UNDECIDED: "cannot be decided",
 }
-# Kinds: the six printed numbers by which the readings of the paper's words were chosen;
-# what was found after; and statements on PMMA, which say nothing of the model.
+# Kinds: the six printed numbers that we used to choose between readings of the paper's
+# words; all other claims on the model; and claims on the experiment with PMMA.
 READINGS = "readings"
 RESULT = "result"
 EXPERIMENT = "experiment"
-# The verdicts on claims of each kind, in words.
+# Verdicts in words, for claims of each kind.
 IN_WORDS = {
     READINGS: WORDS,
     RESULT: WORDS,
     EXPERIMENT: WORDS | {HOLDS: "agrees", FAILS: "differs"},
 }
-# A claim that holds in the run must hold in this share of an ensemble, too.
+# A robust claim also holds in at least this share of each ensemble.
 ENOUGH = 0.95
-# Ensembles around the run: noise of 0.1 % in the normal loads, and sliders with the same
-# printed inputs. Draw 0 is the run itself.
+# Tables of the ensembles around the run: 0.1 % of noise in the normal loads, and sliders
+# with the same printed inputs. Draw 0 is the run itself.
 ENSEMBLES = {"noise": "noise_members", "digits": "digits_members"}
 
 
 class Share(NamedTuple):
-    """In how many of n draws of an ensemble a claim holds."""
+    """A claim holds in k of the n draws of an ensemble."""
 
     k: int
     n: int
@@ -50,11 +51,11 @@ class Share(NamedTuple):
 
 @dataclass(frozen=True)
 class Finding:
-    """Our numbers; whether the claim holds for them (None: an interval crosses the
-    tolerance).
+    """Our numbers, and whether the claim holds for them.
 
-    `shares` has the share of each ensemble whose draws have these numbers, and `note`
-    is a sentence that belongs to them.
+    `holds` is None if it cannot be decided, for example because an interval crosses the
+    tolerance. `shares` says in how many draws of each ensemble the claim holds, and
+    `note` is a sentence about the numbers.
     """
 
     ours: ArrayLike
@@ -64,8 +65,8 @@ class Finding:
 
     @property
     def verdict(self) -> str:
-        """The run decides whether a claim holds, the ensembles whether it does so for
-        these inputs only."""
+        """HOLDS, EXACT, FAILS or UNDECIDED: the run decides whether the claim holds, and
+        the ensembles whether it holds for these inputs only."""
         if self.holds is None:
             return UNDECIDED
         if not self.holds:
@@ -79,14 +80,14 @@ class Finding:
 Find = Callable[[Tables], Finding]
 
 
-def judged(said: Mapping[Any, str], find: Find, tables: Tables) -> dict[str, Any]:
-    """A claim's row of claims.csv; a run without an event that a claim is about
-    contradicts it.
+def judged(claim: Mapping[Any, str], find: Find, tables: Tables) -> dict[str, Any]:
+    """Evaluate a claim: its row of the table of claims.
 
-    `said` is what is stated of it: the claim's name; the section in which the paper
-    has it; its kind, one of those above; the statement; the rule, which says when it
-    holds; the unit of its numbers; and `of`, what each of them is, if there are
-    several.
+    A run without an event that the claim is about contradicts the claim.
+
+    `claim` is a row of the module's claims.csv: name of the claim; section of the paper;
+    kind (see above); statement; rule by which it holds; unit of its numbers; and `of`,
+    what each number refers to, if there are several.
 
     Raises
     ------
@@ -99,14 +100,14 @@ def judged(said: Mapping[Any, str], find: Find, tables: Tables) -> dict[str, Any
         finding = Finding((), False)
     except (KeyError, TypeError, ValueError) as error:
         raise ValueError(
-            f"claim {said['claim']}: the tables do not have its numbers: {error}"
+            f"claim {claim['claim']}: the tables do not have its numbers: {error}"
         ) from error
     shares = {f"{name}_share": part.k / part.n for name, part in finding.shares.items()}
-    words = IN_WORDS[said["kind"]][finding.verdict]
+    words = IN_WORDS[claim["kind"]][finding.verdict]
     if finding.verdict == EXACT:
         words += f" ({100 * min(shares.values()):.0f} %)"
     return {
-        **said,
+        **claim,
         "ours": shown(finding.ours),
         **shares,
         "note": finding.note,
@@ -120,12 +121,12 @@ def in_draws(
     ours: Callable[[pd.DataFrame], Any],
     holds: Callable[[pd.DataFrame], Any],
 ) -> Finding:
-    """A claim on numbers of the members: found in the run, and counted over the draws
-    of both ensembles.
+    """Evaluate a claim on numbers of single runs, in the run and in the draws of both
+    ensembles.
 
-    `ours` takes runs, one row per draw and (quantity, scene) as columns, to the numbers
-    of the claim, one row per draw; `holds` says of each number whether it agrees, which
-    NaN, no global slip, does not.
+    `ours` computes the numbers of the claim, one row per draw, from a table of runs with
+    one row per draw and (quantity, scene) as columns. `holds` says of each number
+    whether it agrees; NaN (no global slip) does not.
     """
     shares = {}
     for name, members in ENSEMBLES.items():
@@ -138,6 +139,6 @@ def in_draws(
 
 
 def shown(values: ArrayLike) -> str:
-    """Numbers with four digits, equal ones once."""
+    """Write numbers with four digits; if all are equal, once."""
     texts = [f"{value:.4g}" for value in np.ravel(values)]
     return "; ".join(texts if len(set(texts)) > 1 else texts[:1])

@@ -21,7 +21,7 @@ from maegawa2010.paper.claim import Find, Finding, in_draws, judged, shown
 from maegawa2010.paper.committed import agreement
 from maegawa2010.paper.inputs import LEADING, SCENES, TRAILING, UNIFORM
 from maegawa2010.paper.tables import Tables, before_global, cell, rows
-from precursors.analysis.slips import up_to_first_global
+from precursors.analysis.slips import until_global
 from precursors.model.chain import FloatArray
 from precursors.support.files import read_table
 
@@ -123,7 +123,8 @@ def lengths_tend_to_increase(t: Tables) -> Finding:
     """Probability that lengths in random order rise as much, with the global slip and
     without it."""
     partial = before_global(t, UNIFORM)["front"]
-    lengths = up_to_first_global(t[f"{UNIFORM}_slips"])["front"]
+    slips = t[f"{UNIFORM}_slips"]
+    lengths = slips["front"][until_global(slips["is_global"])]
     by_chance = [chance_of_rise(lengths), chance_of_rise(partial)]
     below = [chance < CHANCE for chance in by_chance]
     return Finding(by_chance, all(below) if len(set(below)) == 1 else None)
@@ -244,7 +245,7 @@ def first_global_slip_is_at_the_largest_load(t: Tables) -> Finding:
     """Largest F_X [N] in all the time simulated, against that at the first global
     slip."""
     first = [
-        up_to_first_global(t[f"{scene}_slips"])["load_before_N"].iloc[-1]
+        rows(t[f"{scene}_slips"], is_global=True)["load_before_N"].iloc[0]
         for scene in SCENES
     ]
     largest = [t[f"{scene}_trace"]["tangential_load_N"].max() for scene in SCENES]

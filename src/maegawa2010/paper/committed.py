@@ -117,7 +117,7 @@ def agreement(found: pd.DataFrame) -> str:
     return f"{agree} of {n} numbers of {tables} committed tables were made again alike"
 
 
-def comparisons(tables: Path) -> dict[str, pd.DataFrame]:
-    """The comparisons in a directory of tables, by name."""
-    paths = sorted(tables.glob("committed_*.csv"))
+def comparisons(tables: str | Path) -> dict[str, pd.DataFrame]:
+    """All comparisons of a directory of tables, by name."""
+    paths = sorted(Path(tables).glob("committed_*.csv"))
     return {path.stem: read_table(path) for path in paths}

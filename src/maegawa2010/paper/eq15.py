@@ -1,7 +1,8 @@
-"""Eq. 15, mu_sapp <= mu_s: checked in symbols, over all states of rest, and in motion.
+"""Check Eq. 15, mu_sapp <= mu_s, in symbols, over all states of rest, and in motion.
 
-The equation is about rest. So `fast_drive` drives the chain ever faster, until inertia
-breaks it, and `below_limit` says how far from the state of Eq. 12 a run stays.
+The equation holds at rest. `fast_drive` therefore finds the drive velocity from which
+inertia violates it, and `below_limit` measures how far a run stays from the state of
+Eq. 12.
 """
 
 import math
@@ -14,7 +15,7 @@ import pandas as pd
 import scipy
 
 from precursors.analysis.load_curve import load_curve
-from precursors.analysis.slips import find_slips
+from precursors.analysis.slips import slip_table
 from precursors.analysis.summary import apparent_friction
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.statics import (
@@ -28,18 +29,18 @@ from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
 SYMBOLIC_BLOCKS = 10
-# A start slightly below the maximal strain, as a fraction of it.
+# Strain of a start slightly below the maximal one, over the maximal one.
 SLIGHTLY_BELOW = 0.999
-# Of the speed at which a rigid slider would pass the bound: the chain bends, and moves
-# before F_X = mu_k F_Z.
+# Relative tolerance of the speed at which a rigid slider would exceed the bound: the
+# chain is elastic, and moves before F_X = mu_k F_Z.
 RIGID_TOLERANCE = 0.25
-# Of the speed that is found, and of the distance from the limit: more than rounding
-# errors reach in 10 s.
+# Decimals to which the speed and the distance from the limit are rounded, so that they
+# hide the rounding errors of 10 s.
 DIGITS = 4
-# A run ends after the drive has advanced so many times what the bound needs, if nothing
-# stops it before.
+# A run lasts until the drive has advanced this many times as far as the bound needs.
 ADVANCES = 3
-# Relative. HiGHS is asked for 1e-10 of F_Z; sums of N terms are rounded to 1e-16 each.
+# Relative tolerances. HiGHS is asked for 1e-10 of F_Z; sums of N terms are rounded to
+# 1e-16 each.
 LP_TOLERANCE = 1e-9
 ROUNDING = 1e-12
 
@@ -58,7 +59,7 @@ STATEMENTS = {
 
 
 class Check(NamedTuple):
-    """A check by its key in STATEMENTS, with the value it expects and the one it finds.
+    """A check: its key in STATEMENTS, the expected value, and ours (`found`).
 
     The case is a scene or a number of blocks.
     """
@@ -76,17 +77,17 @@ def close(
     case: str,
     unit: str,
     expected: float,
-    found: float,
+    value: float,
     tolerance: float = ROUNDING,
 ) -> Check:
-    """A check that both values are the same to a relative tolerance."""
-    holds = math.isclose(found, expected, rel_tol=tolerance)
-    return Check(check, case, unit, expected, found, holds)
+    """Check that our value is the expected one to a relative tolerance."""
+    holds = math.isclose(value, expected, rel_tol=tolerance)
+    return Check(check, case, unit, expected, value, holds)
 
 
 def eq15_table(runs: Mapping[str, Run], duration: float) -> pd.DataFrame:
-    """One row per `Check` of the runs of the scenes; a global slip is awaited for
-    `duration` [s]."""
+    """One row per `Check` on the runs of the scenes; runs to the first global slip end
+    after `duration` [s] at the latest."""
     rows = [*in_symbols(SYMBOLIC_BLOCKS)]
     for make in (as_printed, at_rest):
         rows += [make(scene, run.chain) for scene, run in runs.items()]
@@ -100,11 +101,11 @@ def eq15_table(runs: Mapping[str, Run], duration: float) -> pd.DataFrame:
 
 
 def in_symbols(n: int) -> Iterator[Check]:
-    """The load F_X = K y_1 of Eq. 12 for N blocks with any normal loads, as it follows
-    from Eqs. 2, 3 and 11, and as printed, with K y_N in the last line.
+    """Check the load F_X = K y_1 of Eq. 12 for N blocks with any normal loads: as it
+    follows from Eqs. 2, 3 and 11, and as printed, with K y_N in the last line.
 
-    Every block rests at its limit mu_s w_i. The spring behind it pushes it by K y_1 or
-    k y_i, and the one ahead, which block N does not have, pushes it back.
+    Every block rests at its limit mu_s w_i. The spring behind it pushes it forward with
+    K y_1 or k y_i, and the spring ahead, which block N does not have, pushes it back.
     """
     import sympy  # slow
 
@@ -124,55 +125,55 @@ def in_symbols(n: int) -> Iterator[Check]:
         ("as_printed", printed, bound + excess),
     ):
         (solution,) = sympy.linsolve(equations, y)
-        found = sympy.expand(K * solution[0])
+        load = sympy.expand(K * solution[0])
         wanted = sympy.expand(expected)
         yield Check(
-            check, f"N = {n}, in symbols", "N", str(wanted), str(found), found == wanted
+            check, f"N = {n}, in symbols", "N", str(wanted), str(load), load == wanted
         )
 
 
 def as_printed(scene: str, chain: Chain) -> Check:
-    """The load of Eq. 12 as printed, from its N equations in numbers and by the
-    formula."""
+    """Check the load of Eq. 12 as printed: its N equations, solved in numbers, against
+    the formula."""
     stiffer = chain.stiffness / chain.drive_stiffness - 1
     expected = load_bound(chain) + stiffer * float(chain.strength[-1])
-    found = float(chain.drive_stiffness * compressions_as_printed(chain)[0])
-    return close("as_printed", scene, "N", expected, found)
+    load = float(chain.drive_stiffness * compressions_as_printed(chain)[0])
+    return close("as_printed", scene, "N", expected, load)
 
 
 def at_rest(case: str, chain: Chain) -> Check:
-    """The largest load over all states of rest, which is reached in the state of Eq. 12
-    (corrected)."""
+    """Check that the largest load over all states of rest is mu_s F_Z, and that it is
+    reached in the state of Eq. 12 (corrected)."""
     expected = load_bound(chain)
-    found, compressions = largest_load_at_rest(chain)
-    holds = math.isclose(found, expected, rel_tol=LP_TOLERANCE) and np.allclose(
+    load, compressions = largest_load_at_rest(chain)
+    holds = math.isclose(load, expected, rel_tol=LP_TOLERANCE) and np.allclose(
         compressions, maximal_compressions(chain), rtol=LP_TOLERANCE, atol=0
     )
-    return Check("at_rest", case, "N", expected, found, holds)
+    return Check("at_rest", case, "N", expected, load, holds)
 
 
 def in_motion(scene: str, chain: Chain, duration: float) -> Iterator[Check]:
-    """mu_sapp of a chain pushed from the state of maximal residual strain, and from
-    slightly below it.
+    """Check mu_sapp of a chain pushed from the state of maximal residual strain, and
+    from slightly below it.
 
-    At a fraction a of that strain every block is at a mu_s w_i. Block 1 slips first, at
-    F_X = a mu_s F_Z + (1 - a) mu_s w_1, and the others are near enough to their limits
-    to follow it.
+    At a fraction a of that strain the net force on every block is a mu_s w_i. Block 1
+    slips first, at F_X = a mu_s F_Z + (1 - a) mu_s w_1, and the others are close enough
+    to their limits to follow it.
     """
     full = maximal_strain_positions(chain)
     share = float(chain.weights[0]) / chain.normal_load
     for check, a in (("full_strain", 1.0), ("less_strain", SLIGHTLY_BELOW)):
         expected = chain.mu_s * (a + (1 - a) * share)
-        found = pushed(chain, a * full, duration)
-        yield close(check, scene, "1", expected, found)
+        friction = pushed(chain, a * full, duration)
+        yield close(check, scene, "1", expected, friction)
 
 
 def largest_load(chain: Chain, speed: float) -> float:
-    """Largest F_X [N], from natural length, up to the end of the first global slip of a
-    chain driven so fast.
+    """Largest F_X [N] of a chain driven at `speed` [m/s], from natural length to the end
+    of its first global slip.
 
-    Driven fast, a chain never stops: its run then has time for a swing of the whole
-    slider on the drive.
+    Driven fast, a chain never stops: the run then includes one swing of the whole
+    slider on the drive's spring.
     """
     driven = replace(chain, drive_velocity=speed)
     swing = math.tau * math.sqrt(chain.n_blocks * chain.mass / chain.drive_stiffness)
@@ -181,12 +182,12 @@ def largest_load(chain: Chain, speed: float) -> float:
 
 
 def fast_drive(scene: str, chain: Chain) -> Check:
-    """The speed of the drive that takes F_X beyond mu_s F_Z, and that of a rigid
-    slider; NaN if none does.
+    """Compare the drive velocity from which F_X exceeds mu_s F_Z with that of a rigid
+    slider; NaN if there is none.
 
-    A rigid slider that slides at rest under mu_k F_Z when the drive comes at V has at
-    most F_X = mu_k F_Z + V sqrt(K M). The speed is sought up to that at which V sqrt(K
-    M) alone is mu_s F_Z.
+    A rigid slider at rest that is loaded with mu_k F_Z when the drive starts with V
+    reaches at most F_X = mu_k F_Z + V sqrt(K M). The search ends at the velocity at
+    which V sqrt(K M) alone is mu_s F_Z.
     """
     momentum = math.sqrt(chain.drive_stiffness * chain.n_blocks * chain.mass)
     expected = (chain.mu_s - chain.mu_k) * chain.normal_load / momentum
@@ -196,39 +197,39 @@ def fast_drive(scene: str, chain: Chain) -> Check:
 
     between = chain.drive_velocity, load_bound(chain) / momentum
     passes = excess(between[0]) <= 0.0 < excess(between[1])
-    found = (
+    velocity = (
         round(scipy.optimize.brentq(excess, *between, xtol=1e-6), DIGITS)
         if passes
         else math.nan
     )
-    return close("fast", scene, "m/s", expected, found, RIGID_TOLERANCE)
+    return close("fast", scene, "m/s", expected, velocity, RIGID_TOLERANCE)
 
 
 def below_limit(scene: str, run: Run) -> Check:
-    """Distance of a run from the state of Eq. 12, in which all blocks are at their
-    limits at once.
+    """Check that a run stays away from the state of Eq. 12, in which all blocks are at
+    their limits at the same time.
 
-    At the onset of each slip: how far the block farthest from its limit mu_s w_i is below
-    it, over mu_s w_i.
+    At the onset of each slip some block is farthest below its limit mu_s w_i. The value
+    is the smallest of these distances, over mu_s w_i.
     """
-    forces = run.spring_forces(find_slips(run)["onset"])
+    forces = run.spring_forces(slip_table(run)["onset_s"])
     below = 1.0 + np.diff(forces, append=0.0) / run.chain.strength
-    found = round(float(below.max(axis=1).min(initial=math.inf)), DIGITS)
-    return Check("below", scene, "1", 0.0, found, found > 0.0)
+    least = round(float(below.max(axis=1).min(initial=math.inf)), DIGITS)
+    return Check("below", scene, "1", 0.0, least, least > 0.0)
 
 
 def rigid(chain: Chain, duration: float) -> Check:
-    """mu_sapp of one block with the weight and the mass of the whole chain, pushed from
-    natural length."""
+    """Check mu_sapp of one block with the weight and the mass of the whole chain, pushed
+    from natural length."""
     block = replace(
         chain, weights=np.array([chain.normal_load]), mass=chain.n_blocks * chain.mass
     )
-    found = pushed(block, None, duration)
-    return close("rigid", "N = 1", "1", chain.mu_s, found)
+    friction = pushed(block, None, duration)
+    return close("rigid", "N = 1", "1", chain.mu_s, friction)
 
 
 def pushed(chain: Chain, start: FloatArray | None, duration: float) -> float:
-    """mu_sapp (Eq. 1) of a chain pushed from rest at some positions [m]; NaN without a
-    global slip."""
+    """mu_sapp (Eq. 1) of a chain pushed from rest at given positions [m], by default
+    natural length; NaN without a global slip."""
     run = simulate(chain, duration, "global slip", start_positions=start)
     return apparent_friction(run)

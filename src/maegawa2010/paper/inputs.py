@@ -1,8 +1,9 @@
-"""The paper's scenes, and the tables that the ledger is made from.
+"""The paper's scenes, and the tables from which claims and open points are evaluated.
 
-The rules import this module, so that it imports no other."""
+The workflow's rules import this module, so it imports no other.
+"""
 
-# By theta: -5/6, 0 and 5/6.
+# In the order of theta: -5/6, 0 and 5/6.
 TRAILING = "fig11"
 UNIFORM = "fig10"
 LEADING = "fig12"

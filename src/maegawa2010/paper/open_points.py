@@ -1,5 +1,4 @@
-"""Misprints of the paper, and points that it leaves open beside the readings of
-definitions.csv."""
+"""Misprints of the paper, and open points that are not readings in definitions.csv."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -15,27 +14,27 @@ from maegawa2010.paper.tables import Tables, before_global, cell, rows
 from precursors.model.chain import linear_weights
 from precursors.support.files import read_table
 
-# A number as the paper prints or means it, and the one that we take.
+# The paper's number, as printed or meant, and ours.
 Pair = tuple[ArrayLike, ArrayLike]
 
 
 def of_check(t: Tables, check: str) -> list[float]:
-    """The finding of a check of Eq. 15 in each scene."""
+    """Our value in a check of Eq. 15, for each scene."""
     return [float(cell(t["eq15"], "found", check=check, case=s)) for s in SCENES]
 
 
 def eq12(t: Tables) -> Pair:
-    """F_X of the state of Eq. 12."""
+    """F_X in the state of Eq. 12."""
     return of_check(t, "as_printed"), of_check(t, "at_rest")
 
 
 def events_counted(t: Tables) -> list[int]:
-    """Events of Fig. 13, the first global slip included."""
+    """Events of Fig. 13, including the first global slip."""
     return [int(t[f"{scene}_slips"]["counted"].sum()) for scene in SCENES]
 
 
 def residual_strain(t: Tables) -> Pair:
-    """mu_sapp from the largest residual strain, and from natural length."""
+    """mu_sapp of a run from the largest residual strain, and from natural length."""
     return of_check(t, "full_strain"), [
         cell(t["reproduction"], "reproduced", scene=scene, quantity="mu_sapp")
         for scene in SCENES
@@ -43,32 +42,32 @@ def residual_strain(t: Tables) -> Pair:
 
 
 def short_events(t: Tables) -> Pair:
-    """Short events, which the experiment does not have."""
+    """Short events; the experiment has none."""
     return 0, [len(rows(before_global(t, scene), counted=False)) for scene in SCENES]
 
 
 def slider(t: Tables, column: str, scene: str = UNIFORM) -> float:
-    """A column of the slider, the same for all events of a scene."""
+    """A parameter of the slider, from a column that has one value in a scene."""
     return float(t[f"{scene}_slips"][column].unique().item())
 
 
 def difference_of_cells() -> float:
-    """Difference of the loads of the cells over F_Z."""
+    """Difference of the two load cells' loads over F_Z."""
     low, high = printed.CELL_LOADS_N
     return (high - low) / (high + low)
 
 
 def ratio_at_cells(t: Tables) -> Pair:
-    """Ratio of the normal loads at the load cells."""
+    """Ratio of the normal loads at the two load cells."""
     there = difference_of_cells() / (1 - 1 / slider(t, "n_blocks"))
     return (1 + there) / (1 - there), printed.CELL_LOADS_N[1] / printed.CELL_LOADS_N[0]
 
 
 def theta_by_moments(t: Tables) -> Pair:
-    """theta by moments with ten blocks, and with a line contact, against that of the
-    straight line."""
-    # Moments about the middle of the contact, over F_Z L: of the cells, and of the
-    # loads with theta = 1.
+    """theta from the balance of moments, with ten blocks and with a line contact, and
+    the paper's theta from a straight line through the loads of the cells."""
+    # Moments about the middle of the contact over F_Z L: of the cells' loads, and of the
+    # blocks' loads with theta = 1.
     cells = (
         difference_of_cells()
         * printed.CELL_SPACING_M
@@ -87,7 +86,7 @@ def end_to_end(t: Tables) -> Pair:
     return k / (n - 1), k / n
 
 
-# By the point of open_points.csv, which has in words the text of the paper and ours.
+# By point of open_points.csv, which describes the paper's choice and ours in words.
 NUMBERS: dict[str, Callable[[Tables], Pair]] = {
     "eq12": eq12,
     "fig8": lambda t: (0, slider(t, "theta", LEADING)),

@@ -1,5 +1,4 @@
-"""Numbers of the scenes: those that the paper prints, and those that no other table
-has."""
+"""Numbers of the scenes: those printed in the paper, and the parameters of their chains."""
 
 import math
 from collections.abc import Mapping
@@ -10,7 +9,7 @@ from precursors.analysis.summary import summarise, summary_of
 from precursors.model.statics import maximal_compressions
 from precursors.solver.run import Run
 
-# Numbers of `Summary` in the table of the paper's numbers, and their units.
+# Attributes of `Summary` that are compared with the paper, and their units.
 UNITS = {
     "events_counted": "1",
     "mu_sapp": "1",
@@ -21,8 +20,8 @@ UNITS = {
 
 
 def measures_table(runs: Mapping[str, Run]) -> pd.DataFrame:
-    """One row per scene: parameters of its chain (Eqs. 2-10) and its residual strain,
-    units in the names."""
+    """One row per scene: parameters of its chain (Eqs. 2-10) and its residual strain;
+    column names end with units."""
     return pd.DataFrame(
         {
             "scene": scene,
@@ -41,15 +40,15 @@ def measures_table(runs: Mapping[str, Run]) -> pd.DataFrame:
 
 
 def residual_strain(run: Run) -> float:
-    """Compression of the slider when its first global slip begins, over the largest at
-    rest (Eqs. 11, 12).
+    """Compression of the slider at the onset of its first global slip, over the largest
+    compression at rest (Eqs. 11, 12).
 
     NaN without a global slip, and for one block.
     """
-    found = summarise([run])
-    if not found["reached"].item() or run.chain.n_blocks == 1:
+    summary = summarise([run])
+    if not summary["reached"].item() or run.chain.n_blocks == 1:
         return math.nan
-    compressions = run.spring_forces(found["global_slip_s"])[0] / run.chain.springs
+    compressions = run.spring_forces(summary["global_slip_s"])[0] / run.chain.springs
     return float(compressions[1:].sum() / maximal_compressions(run.chain)[1:].sum())
 
 
@@ -58,16 +57,15 @@ def reproduction_table(
 ) -> pd.DataFrame:
     """One row per scene and quantity, from the slip table of each scene.
 
-    `paper` has what the paper prints of each scene: events_counted and mu_sapp, or
-    nothing.
+    `paper` has the numbers printed for each scene: events_counted and mu_sapp, or none.
     """
     rows = []
     for scene, table in slips.items():
-        found = summary_of(table)
+        summary = summary_of(table)
         theta = next(iter(table["theta"]), None)
         for quantity, unit in UNITS.items():
             row = {"scene": scene, "theta": theta, "quantity": quantity, "unit": unit}
             row["paper"] = paper[scene].get(quantity)
-            row["reproduced"] = getattr(found, quantity)
+            row["reproduced"] = getattr(summary, quantity)
             rows.append(row)
     return pd.DataFrame(rows)

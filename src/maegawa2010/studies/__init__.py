@@ -1,6 +1,6 @@
-"""Ensembles: many runs that differ in a few values.
+"""Studies of the model, each in a package of its own; most are ensembles of runs.
 
-A `Study` (members.py) is a table of members, each of them one run. A job runs every n-th
-member and writes a file of rows. Together the files are the table of the study, the
-same for any n.
+A `Study` (members.py) is a table of members that differ in a few values; each member is
+one run. One of n jobs runs every n-th member and writes a file of rows. Together the
+files are the table of the study, which does not depend on n.
 """

@@ -1,5 +1,5 @@
-"""A study: a table of members, each of them one run (`runs.py`), and what the runs have
-in common."""
+"""The members of a study, each of them one run (see `runs.py`), and statistics of the
+runs."""
 
 from __future__ import annotations
 
@@ -20,13 +20,12 @@ from maegawa2010.support.run_statistics import (
 )
 from precursors.model.chain import SLIDER, Chain
 
-# Columns that the table of a study does not have where they are the same for all
-# members.
+# Columns that are left out of the table of a study if all members have the same value.
 LEFT_OUT = {*SLIDER, "duration"} - {"theta", "n_blocks"}
-CHAIN = ["scene", "theta", "n_blocks"]  # columns that name it
-# Two numbers are the same if they differ by no more than this: friction coefficients by
-# a unit of the last digit of the paper's 0.49, times by what can be read from the axis
-# of Figs. 10-12.
+CHAIN = ["scene", "theta", "n_blocks"]  # columns that identify a chain
+# Two numbers count as the same if they differ by at most this: friction coefficients by
+# one unit of the last digit of the paper's 0.49, times [s] by the precision to which the
+# axis of Figs. 10-12 can be read.
 TOLERANCES = {
     "mu_sapp": printed.LAST_DIGIT,
     "events_counted": 0.0,
@@ -37,14 +36,14 @@ TOLERANCES = {
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """Runs to the first global slip that differ in a few values.
+    """An ensemble of runs to the first global slip that differ in a few values.
 
     Attributes
     ----------
     members : DataFrame
-        One row per run. Its columns are arguments of `Chain.from_slider`; duration, the
-        time limit of the run [s]; load_noise (see `chain_of`) with group and draw, the
-        numbers of the random stream. All other columns are labels.
+        One row per run. Columns are arguments of `Chain.from_slider`; duration, the time
+        limit of the run [s]; load_noise (see `chain_of`); group and draw, which select
+        the stream of random numbers; and labels.
     seed : int
         Seed of all random numbers.
     """
@@ -53,25 +52,25 @@ class Study:
     seed: int = 0
 
     def chunk(self, i: int, n: int) -> Study:
-        """Chunk i = 1..n: every n-th member, from the i-th on, about an n-th of the
-        work."""
+        """Chunk i = 1..n: every n-th member from the i-th on, so that chunks have about
+        the same work."""
         return replace(self, members=self.members.iloc[i - 1 :: n])
 
 
 def stack(blocks: Iterable[Mapping[str, Any]]) -> pd.DataFrame:
-    """Members of several ensembles one below the other; each has a value or an array
-    for every column."""
+    """Stack the members of several ensembles; each block has a value or an array for
+    every column."""
     return pd.concat([pd.DataFrame(block) for block in blocks], ignore_index=True)
 
 
 def draws(runs: int) -> dict[str, Any]:
-    """Columns of an ensemble: as many runs with noise, after draw 0 without it."""
+    """Columns of an ensemble: draw 0 without noise, then `runs` draws with noise."""
     draw = np.arange(runs + 1)
     return {"draw": draw, "load_noise": np.where(draw == 0, 0.0, NOISE)}
 
 
 def chain_of(member: Mapping[Any, Any], seed: int = 0) -> Chain:
-    """Chain of a member; it depends on nothing but the member and the seed.
+    """Chain of a member; it depends only on the member and the seed.
 
     Noise of size s changes each normal load to w_i (1 + s u_i) with u_i uniform in
     -1..1.
@@ -88,13 +87,12 @@ def chain_of(member: Mapping[Any, Any], seed: int = 0) -> Chain:
 
 
 def gather(chunks: Iterable[pd.DataFrame]) -> pd.DataFrame:
-    """One table of a study from its chunks, without columns that say nothing
-    (`LEFT_OUT`).
+    """Join the chunks of a study to one table, without constant columns (`LEFT_OUT`).
 
     Raises
     ------
     ValueError
-        If a chunk is missing or there twice.
+        If a chunk is missing or repeated.
     """
     together = pd.concat([table for table in chunks if len(table)]).sort_values(
         "member", ignore_index=True
@@ -107,13 +105,13 @@ def gather(chunks: Iterable[pd.DataFrame]) -> pd.DataFrame:
 
 
 def noise_table(members: pd.DataFrame) -> pd.DataFrame:
-    """Distribution of each number over the noise.
+    """Distribution of each quantity over the noise.
 
     Returns
     -------
     DataFrame
-        One row per chain and quantity: runs with noise; reached, how many of these have
-        a global slip; `nine_tenths` of those.
+        One row per chain and quantity: runs, the number of runs with noise; reached, how
+        many of them have a global slip; and the quantiles of these (`nine_tenths`).
     """
     rows = []
     for values, of_chain in members.groupby(CHAIN, sort=False):
@@ -126,14 +124,14 @@ def noise_table(members: pd.DataFrame) -> pd.DataFrame:
 
 
 def differences_table(members: pd.DataFrame) -> pd.DataFrame:
-    """Whether two loadings have the same median.
+    """Compare the medians of two loadings.
 
     Returns
     -------
     DataFrame
-        One row per quantity and pair of scenes: difference of the medians, scene less
-        other, with an interval low to high that holds it in at least 95 % of cases;
-        tolerance; verdict of `compared`.
+        One row per quantity and pair of scenes: difference of the medians, scene minus
+        other, with its 95 % interval from low to high; tolerance; and the verdict of
+        `compared`.
     """
     runs = with_noise(members)
     theta = runs.groupby("scene", sort=False)["theta"].first()

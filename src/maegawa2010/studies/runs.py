@@ -1,24 +1,27 @@
-"""The runs of a study's members, each with its numbers."""
+"""Run the members of a study, and summarise each run."""
 
+import math
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
-from maegawa2010.paper.readings import speedup
 from maegawa2010.studies.members import Study, chain_of
-from precursors.analysis.events import slip_events
 from precursors.analysis.horizon import horizon
-from precursors.analysis.slips import slip_columns, slip_table, up_to_first_global
-from precursors.analysis.summary import summaries
+from precursors.analysis.slips import slip_events, slip_table, until_global
+from precursors.analysis.summary import summarise
 from precursors.model.chain import Chain
 from precursors.solver.many import simulate_many
 from precursors.solver.run import Record, Run
 from precursors.solver.simulate import TransitionLimitError, simulate
 from precursors.support.files import write_table
 
-# Runs of a batch are in memory at the same time: some 200 of 10 blocks, 10 of 200.
+# A batch is held in memory: 200 runs of 10 blocks, or 10 runs of 200 blocks.
 BLOCKS_PER_BATCH = 2000
+# L_p/L beyond which the experiment's precursors grow faster (Sect. 6.1).
+KINK = 0.7
 # Error of a transition's time from which on single events are not predicted.
 UNPREDICTED_S = 1e-6
 # Of a run, what is tried first, and then twice as much: trying takes 24 runs, and with
@@ -29,11 +32,10 @@ BEFORE = 0.99
 
 
 def run_chunk(study: Study, chunk: str, path: str) -> None:
-    """Run one chunk of a study, "1of4" to "4of4": every n-th member, a row each with
-    what its run gave."""
+    """Run one chunk of a study, such as "1of4", and write a row for each member."""
     i, n = map(int, chunk.split("of"))
-    found = run_members(study.chunk(i, n))
-    write_table(found.rename_axis("member").reset_index(), path)
+    rows = run_members(study.chunk(i, n))
+    write_table(rows.rename_axis("member").reset_index(), path)
 
 
 def run_members(study: Study) -> pd.DataFrame:
@@ -42,8 +44,8 @@ def run_members(study: Study) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        The members, each with the numbers of its run (see `numbers_of`). A member that
-        meets the limit of transitions is summarised as far as it came.
+        The members, each with the numbers of its run (see `numbers_of`). A run that
+        reaches the limit of transitions is summarised up to there.
     """
     size = max(1, BLOCKS_PER_BATCH // max(study.members["n_blocks"], default=1))
     results = [numbers_of([])]
@@ -59,19 +61,15 @@ def run_members(study: Study) -> pd.DataFrame:
 
 
 def numbers_of(runs: Iterable[Record]) -> pd.DataFrame:
-    """A row for each run: its summary (see `summarise`), and the growth of L_p (see
+    """Summary of each run (see `summarise`), and the growth of its precursors (see
     `speedup`)."""
     runs = list(runs)
-    tables = [slip_columns(slip_events(run), run.chain) for run in runs]
-    return summaries(tables).assign(
-        speedup=[speedup(table) for table in tables],
-        transitions=[len(run.transitions) for run in runs],
-    )
+    return summarise(runs).assign(speedup=[speedup(slip_events(run)) for run in runs])
 
 
 def up_to_global_slip(chains: Sequence[Chain], duration: float) -> Sequence[Run]:
-    """Run a batch; a run that meets the limit of transitions is kept as far as it
-    came."""
+    """Run a batch of chains to their first global slips; a run that reaches the limit of
+    transitions ends there."""
     try:
         return simulate_many(chains, duration, "global slip", 1)
     except TransitionLimitError as limit:
@@ -79,6 +77,30 @@ def up_to_global_slip(chains: Sequence[Chain], duration: float) -> Sequence[Run]
             so_far: Any = limit.run
             return [so_far]
         return [run for chain in chains for run in up_to_global_slip([chain], duration)]
+
+
+def speedup(slips: NDArray[np.void]) -> float:
+    """Growth of L_p with F_X beyond KINK L over the growth before, from the counted
+    events of `slip_events`.
+
+    The first part ends with the last event of at most KINK L before the first event of
+    the whole length, which ends the second part. NaN if L_p does not grow in the first
+    part, or F_X in the second.
+    """
+    counted = slips[slips["counted"]]
+    front, load, n_blocks = (
+        counted[name] for name in ("front", "load_before_N", "n_blocks")
+    )
+    whole = np.flatnonzero(front == n_blocks)
+    if not len(whole) or not slips["is_global"].any():
+        return math.nan
+    up_to_kink = np.flatnonzero(front[: whole[0]] <= KINK * n_blocks[0])
+    three = [0, up_to_kink[-1] if len(up_to_kink) else 0, whole[0]]
+    rise = np.diff(front[three])
+    span = np.diff(load[three])
+    if rise[0] <= 0 or span[1] <= 0:
+        return math.nan
+    return float(rise[1] * span[0] / (rise[0] * span[1]))
 
 
 def predictable(run: Run) -> float:
@@ -101,7 +123,8 @@ def known_until(run: Run) -> float:
 def so_far(run: Run) -> dict[str, float]:
     """The numbers of a run up to its first global slip, or to its end before that:
     mu_sapp is the largest F_X/F_Z, global_slip_s the onset of the last event."""
-    slips = up_to_first_global(slip_table(run))
+    slips = slip_table(run)
+    slips = slips[until_global(slips["is_global"])]
     return {
         "events_to_global_slip": len(slips),
         "events_counted": int(slips["counted"].sum()),

@@ -1,1 +1,1 @@
-"""Digest of code, timing, statistics of runs."""
+"""Code that the workflow's scripts share: jobs, digests, provenance, timing, statistics."""

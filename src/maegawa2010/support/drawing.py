@@ -1,4 +1,4 @@
-"""Shared by the scripts that draw."""
+"""Saving of figures, shared by the scripts that draw."""
 
 import gc
 from collections.abc import Iterable
@@ -7,13 +7,13 @@ from matplotlib.figure import Figure
 
 from precursors.figures import style
 
-# looking for garbage among a figure's many objects takes a seventh of the time
+# A figure has many objects: the garbage collector would take a seventh of the time.
 gc.disable()
 
 
 def save(
     figure: Figure, paths: Iterable[str], title: str, look: style.Look = style.LOOK
 ) -> None:
-    """Write a figure to its files; `title` is what a reader of an SVG hears."""
+    """Write a figure to its files; `title` is the accessible name of an SVG."""
     for path in paths:
         style.save(figure, path, look, title)

@@ -1,4 +1,4 @@
-"""Shared by the scripts of the workflow: one line on an error, and their files."""
+"""Error messages of one line and reading and writing of files, for all scripts."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ if TYPE_CHECKING:
 
 Content = TypeVar("Content")
 
-LONG = 5  # [s]: a job that takes longer says so
+LONG = 5  # s; a longer job announces its duration
 
 
 @contextmanager
 def job() -> Iterator[Any]:
-    """Yield the object `snakemake` of a script, and write the log of its job.
+    """Yield the script's `snakemake` object, and write the log of its job.
 
-    A wrong value or file is one line in the log and on the terminal; other errors add a
-    traceback to the log.
+    A wrong value or file gives one line in the log and on the terminal; any other error
+    also gives a traceback in the log.
     """
     snakemake = vars(sys.modules["__main__"])["snakemake"]
     signal.signal(
@@ -49,7 +49,7 @@ def job() -> Iterator[Any]:
 
 
 def read(load: Callable[[str], Content], path: str) -> Content:
-    """Read a file of the results. One that is damaged can be deleted."""
+    """Read a result file; the error for a damaged one says how to replace it."""
     try:
         return load(path)
     except ValueError as error:
@@ -59,12 +59,12 @@ def read(load: Callable[[str], Content], path: str) -> Content:
 def read_all(
     load: Callable[[str], Content], paths: Iterable[str]
 ) -> dict[str, Content]:
-    """Read files, by their names without the ending: runs by their scenes."""
+    """Read files into a table by file name without its suffix (for runs: by scene)."""
     return {Path(path).name.split(".")[0]: read(load, path) for path in paths}
 
 
 def write_tables(tables: Mapping[str, pd.DataFrame], output: Any) -> None:
-    """Write each table to the output of its name."""
+    """Write each table to the output file of the same name."""
     from precursors.support.files import write_table
 
     for name, path in output.items():

@@ -1,4 +1,4 @@
-"""Where results come from: versions, machine, configuration, and checksums of all
+"""Provenance of the results: versions, machine, configuration, and checksums of all
 inputs and outputs."""
 
 import hashlib
@@ -13,7 +13,7 @@ from typing import Any
 
 from precursors.support.checkout import git_state
 
-# What the results depend on, seen from the directory of the Snakefile.
+# Files on which the results depend, relative to the directory of the Snakefile.
 SOURCES = (
     "Snakefile",
     "config.yaml",
@@ -22,7 +22,7 @@ SOURCES = (
     "src/**/*",
     "workflow/**/*",
 )
-# In the directory of the results, but not results.
+# Files in the directory of the results that are not results.
 NOT_RESULTS = (
     "README.md",
     "logs",
@@ -32,10 +32,10 @@ NOT_RESULTS = (
 
 
 def provenance(config: Mapping[str, Any], root: Path, results: Path) -> dict[str, Any]:
-    """Collect where the results come from, ready for JSON.
+    """Collect the provenance of the results, ready for JSON.
 
-    Inputs are named as seen from `root`, the directory of the Snakefile, and outputs as
-    seen from that of the results.
+    Paths of inputs are relative to `root`, the directory of the Snakefile; paths of
+    outputs are relative to `results`.
     """
     return {
         "written": datetime.now(UTC).isoformat(timespec="seconds"),
@@ -62,8 +62,8 @@ def provenance(config: Mapping[str, Any], root: Path, results: Path) -> dict[str
 def checksums(
     paths: Iterable[Path], root: Path, leave_out: tuple[str, ...] = ()
 ) -> dict[str, str]:
-    """SHA-256 of files by their names seen from `root`, without hidden and compiled
-    ones."""
+    """SHA-256 of files by path relative to `root`; hidden and compiled files are left
+    out."""
     table = {}
     for path in sorted(paths):
         name = path.relative_to(root).as_posix()
@@ -75,8 +75,8 @@ def checksums(
 
 def processor_name() -> str:
     """Processor name from /proc/cpuinfo, or else its architecture."""
-    told = Path("/proc/cpuinfo")
+    cpuinfo = Path("/proc/cpuinfo")
     names = re.findall(
-        r"model name\s*:\s*(.+)", told.read_text() if told.is_file() else ""
+        r"model name\s*:\s*(.+)", cpuinfo.read_text() if cpuinfo.is_file() else ""
     )
     return next(iter(names), platform.processor() or platform.machine())

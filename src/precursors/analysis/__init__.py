@@ -1,1 +1,1 @@
-"""From a run to its slips, its load curve and the growth of its errors."""
+"""Analyse a run: its slip events, its load curve, and its errors."""

@@ -1,20 +1,20 @@
-"""The distance R of a run from kinetic balance, which no slip changes.
+"""The distance R of a run from kinetic balance, which slips do not change.
 
 In kinetic balance the spring behind block j carries A_j = mu_k (w_j + ... + w_N). The
 distance from it, over springs (k_1 = K, then k) and blocks, is
 
     R = sum_j (T_j - A_j)^2/(2 k_j) + sum_i m v_i^2/2
 
-Let n_i = T_i - T_{i+1} - mu_k w_i. As T_j' = k_j (v_{j-1} - v_j), with v_0 = V, the first
-sum changes by sum_j (T_j - A_j)(v_{j-1} - v_j) = (F_X - mu_k F_Z) V - sum_i n_i v_i. As
-m v_i' = n_i while block i slides forward, and n_i + 2 mu_k w_i while it slides backward,
-the second changes by sum_i n_i v_i, less 2 mu_k w_i |v_i| for each block that slides
-backward. So over the path X = V t of the drive
+Let n_i = T_i - T_{i+1} - mu_k w_i. As T_j' = k_j (v_{j-1} - v_j), with v_0 = V, the
+first sum changes by sum_j (T_j - A_j)(v_{j-1} - v_j) = (F_X - mu_k F_Z) V - sum_i n_i
+v_i. As m v_i' = n_i while block i slides forward, and n_i + 2 mu_k w_i while it slides
+backward, the second changes by sum_i n_i v_i, less 2 mu_k w_i |v_i| for each block that
+slides backward. So the change of R over the path X = V t of the drive is
 
     dR/dX = F_X - mu_k F_Z - 2 mu_k sum_{v_i < 0} w_i |v_i|/V
 
-In a lasting motion R stays bounded. The mean of F_X over the path is then mu_k F_Z where
-no block slides backward, and at least that in every case.
+In a lasting motion R stays bounded. The mean of F_X over the path is then mu_k F_Z if
+no block slides backward, and larger otherwise.
 """
 
 from typing import NamedTuple
@@ -28,16 +28,17 @@ from precursors.solver.run import Run
 
 
 class Balance(NamedTuple):
-    """What changes R in a time: change = work - backward + remainder, in J."""
+    """Terms of the change of R in some time [J]: change = work - backward +
+    remainder."""
 
-    work: float  # of the drive, beside kinetic friction
-    backward: float  # that of blocks which slide backward
+    work: float  # of the drive, less that against kinetic friction
+    backward: float  # loss by blocks that slide backward
     change: float  # of R
-    remainder: float  # errors of the run and of the integral
+    remainder: float  # error of the run and of the integral
 
 
 def balance(run: Run, start: float, end: float) -> Balance:
-    """What changes R from `start` to `end` [s]."""
+    """Return the terms of the change of R from `start` to `end` [s]."""
     work = float(np.diff(drive_work(run, [start, end]))[0])
     backward = 2.0 * float(backward_slip(run, start, end) @ run.chain.kinetic_friction)
     change = float(np.diff(distance(run, [start, end]))[0])
@@ -45,10 +46,12 @@ def balance(run: Run, start: float, end: float) -> Balance:
 
 
 def distance(run: Run, times: ArrayLike, n_blocks: int | None = None) -> FloatArray:
-    """Distance R from kinetic balance at some times [s], in J, shape (len(times),).
+    """Return the distance R [J] from kinetic balance at `times` [s], shape
+    (len(times),).
 
-    It is that of the first `n_blocks` and their springs on both sides, by default of all.
-    Until a block ahead of them slides, the identity holds for their load in place of F_Z.
+    It is that of the first `n_blocks` and their springs on both sides, by default of
+    all. Until a block ahead of them slides, the identity holds with their load instead
+    of F_Z.
     """
     chain = run.chain
     n = n_blocks or chain.n_blocks
@@ -60,18 +63,19 @@ def distance(run: Run, times: ArrayLike, n_blocks: int | None = None) -> FloatAr
 
 
 def balanced_forces(chain: Chain, n_blocks: int) -> FloatArray:
-    """Force A_j of each spring of the first blocks in kinetic balance [N]; nothing is
-    left of it for the block ahead of them."""
+    """Return the force A_j [N] in each spring of the first blocks in kinetic balance;
+    in the spring ahead of them it is zero."""
     friction = chain.kinetic_friction[: n_blocks + 1].copy()
     friction[n_blocks:] = 0.0
     return np.cumsum(friction[::-1])[::-1]
 
 
 def drive_work(run: Run, times: ArrayLike) -> FloatArray:
-    """Work of the drive beside kinetic friction, V times the integral of F_X - mu_k F_Z
-    from 0 to some times [s], in J, shape (len(times),).
+    """Return the work of the drive less that against kinetic friction, up to `times`.
 
-    Between points of the load curve F_X is the cubic through both loads and slopes.
+    It is V times the integral of F_X - mu_k F_Z from 0 to each time [s], in J, shape
+    (len(times),). Between points of the load curve, F_X is the cubic with the loads and
+    slopes at both points.
     """
     chain = run.chain
     knots = np.union1d(load_curve(run)[0], times)
@@ -85,8 +89,8 @@ def drive_work(run: Run, times: ArrayLike) -> FloatArray:
 
 
 def backward_slip(run: Run, start: float, end: float) -> FloatArray:
-    """Distance b_i that each block slides backward from `start` to `end` [m], shape
-    (N,)."""
+    """Return the distance [m] that each block slides backward from `start` to `end`
+    [s], shape (N,)."""
     by_block = run.transitions[np.argsort(run.transitions["block"], kind="stable")]
     until = np.append(by_block["time"][1:], 0.0)
     until[np.diff(by_block["block"], append=0) != 0] = run.duration

@@ -1,56 +1,55 @@
-"""Predictability time: until when a run is accurate to a given tolerance.
+"""Estimate the predictability time, up to which a run is accurate to a given tolerance.
 
-Runs whose parameters and start differ from those of the run by a few roundings show how
-far it may be off: their spread in time is the error of a transition's time, and the
-order of transitions is known as long as all of them agree. Rounding on the way, which
-counts where a slip is long or ends with hardly any slope, is seen in runs with all
-forces times a factor: the same motion, rounded otherwise at every step. It is an
-estimate; `certify` gives a proof.
+Neighbours are runs whose parameters and start differ by a few roundings. The spread of
+their transition times gives the error of a transition's time, and the order of
+transitions is known as long as all neighbours agree. Rounding errors during the run
+matter if a slip is long or a block stops with a small slope. Runs with all forces times
+a factor show them: they have the same motion, with other rounding errors at every step.
+The result is an estimate; `certify` gives a proof.
 """
 
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from precursors.analysis.events import transitions_right
+from precursors.analysis.agreement import transitions_right
 from precursors.model.chain import FloatArray
 from precursors.model.checks import positive
 from precursors.solver.many import simulate_many
 from precursors.solver.run import Run
 
 EPS = float(np.finfo(float).eps)
-# The spread of so many neighbours is within 40 % of that of very many, nineteen times
-# in twenty.
+# In 95 % of cases the spread of this many neighbours is within 40 % of that of very
+# many.
 N_NEIGHBOURS = 16
-# Standard deviation of a value of a neighbour, in units of its largest rounding error
-# EPS / 2: more than the solver takes for zero, so that neighbours disagree on a
-# transition that rounding decides.
+# Standard deviation of a perturbed value, in units of its largest rounding error EPS /
+# 2. It is larger than what the solver counts as zero, so neighbours disagree on a
+# transition that depends on rounding.
 ROUNDINGS = 64.0
-# The error is estimated as so many times the spread by one rounding.
+# The error is estimated as SIGMAS times the spread that one rounding causes.
 SIGMAS = 6.0
-# Runs with other roundings at every step, and how many times their spread the error is.
+# Number of runs with other rounding errors, and the ratio of the error to their spread.
 N_ROUNDED = 8
 SIGMAS_ROUNDED = 4.0
-# With a smaller drop of friction, relative to mu_s and the mean load, stops are so nearly
-# missed that what the solver takes for zero shifts them.
+# Smallest drop of friction, relative to mu_s and the mean load. With a smaller one,
+# what the solver counts as zero shifts the stops.
 NO_DROP = 1e-7
-# Neighbours run a little longer than the run, so that none lacks a transition that
-# comes just before the end.
+# Neighbours run longer by this factor, so that none misses a transition just before the
+# end.
 LONGER = 1.0 + 1e-6
 SEED = 2010
-# Parameters in N or kg: with all of them times a factor, the motion is the same.
+# Parameters with N or kg in their unit: a common factor does not change the motion.
 FORCES = ("weights", "mass", "stiffness", "drive_stiffness")
-# Parameters that neighbours change, beside their weights and starts.
+# Parameters that differ in neighbours, apart from weights and starts.
 NUMBERS = ("mass", "stiffness", "drive_stiffness", "drive_velocity", "mu_s", "mu_k")
 
 
 @dataclass(frozen=True, eq=False)
 class PredictedErrors:
-    """The errors that a run predicts of itself: times of its transitions and their
-    errors [s].
+    """Estimated errors of the transition times of a run [s].
 
-    Errors are infinite from `order_known_until` on, which is infinite itself where all
-    of the order is known.
+    The order of transitions is known up to `order_known_until` [s], which is infinite
+    if all of it is known. Later errors are infinite.
     """
 
     time: FloatArray
@@ -59,9 +58,10 @@ class PredictedErrors:
     order_known_until: float
 
     def horizon(self, tolerance: float) -> float:
-        """Predictability time [s]; see the function `horizon`."""
+        """Return the predictability time [s] (see the function `horizon`)."""
         is_wrong = (self.time_error > tolerance) & np.isfinite(self.time_error)
-        # A transition may come earlier by its error, but not before the one ahead of it.
+        # A transition may come earlier by its error, but not before the one ahead of
+        # it.
         earliest = np.maximum(
             self.time - self.time_error, np.append(0.0, self.time[:-1])
         )
@@ -70,18 +70,18 @@ class PredictedErrors:
 
 
 def horizon(run: Run, tolerance: float) -> float:
-    """Time [s] until which transitions are in order, and their times right to a
-    tolerance [s]."""
+    """Return the time [s] up to which the order of transitions is right, and their
+    times are accurate to `tolerance` [s]."""
     positive("tolerance", tolerance, "s")
     return predicted_errors(run).horizon(tolerance)
 
 
 def predicted_errors(run: Run) -> PredictedErrors:
-    """Estimate the error of every transition's time, and from when the order of
-    transitions is unknown.
+    """Estimate the error of each transition's time, and the time up to which their
+    order is known.
 
-    The neighbours are drawn from a fixed seed. A run and its continuation have the same
-    errors as far as both go. The work is that of `N_NEIGHBOURS` + `N_ROUNDED` runs.
+    The neighbours are drawn with a fixed seed. A run and its continuation have the same
+    errors as long as both last. The work is that of `N_NEIGHBOURS` + `N_ROUNDED` runs.
     """
     time = run.transitions["time"].astype(np.float64)
     others = neighbours(run)
@@ -90,8 +90,8 @@ def predicted_errors(run: Run) -> PredictedErrors:
         one.transitions["time"][n] for one in (run, *others) if len(one.transitions) > n
     ]
     unknown = min(following, default=np.inf)
-    # A block released from rest with hardly a drop comes back to standstill and only
-    # touches it: it may stop or not.
+    # After a release with almost no drop of friction, the velocity of the block returns
+    # to zero and only touches it. It is then uncertain whether the block stops.
     drop = run.chain.strength - run.chain.kinetic_friction
     hardly = drop < NO_DROP * run.chain.strength.mean()
     released = (run.transitions["mode"] != 0) & hardly[run.transitions["block"] - 1]
@@ -108,8 +108,11 @@ def predicted_errors(run: Run) -> PredictedErrors:
 
 
 def neighbours(run: Run) -> list[Run]:
-    """Runs of chains and starts that differ by `ROUNDINGS` roundings, and of the same
-    motion with other roundings at every step; all a little longer than the run."""
+    """Return perturbed runs, all slightly longer than the run.
+
+    The first differ by `ROUNDINGS` roundings in chain and start; the others have the
+    same motion with other rounding errors at every step.
+    """
     random = np.random.default_rng(SEED)
 
     def draw(*shape: int) -> FloatArray:
@@ -117,8 +120,8 @@ def neighbours(run: Run) -> list[Run]:
 
     chain = run.chain
     n = chain.n_blocks
-    # Eq. 7 adds two numbers: a small weight is rounded like its difference from the
-    # mean.
+    # Eq. 7 adds two numbers, so the rounding error of a small weight is that of its
+    # difference from the mean.
     size = (chain.weights > 0) * (
         chain.weights + abs(chain.weights - chain.normal_load / n)
     )
@@ -147,5 +150,5 @@ def neighbours(run: Run) -> list[Run]:
 
 
 def rms(values: FloatArray) -> FloatArray:
-    """Root of the mean of the squares over the first axis."""
+    """Return the root mean square over the first axis."""
     return np.sqrt(np.mean(values**2, axis=0))

@@ -1,4 +1,4 @@
-"""F_X(t) as points between which straight lines draw it."""
+"""Approximate F_X(t) by points that are joined by straight lines."""
 
 from __future__ import annotations
 
@@ -9,26 +9,25 @@ from numpy.typing import NDArray
 from precursors.model.chain import FloatArray
 from precursors.solver.run import Record, Run
 
-# A fiftieth of a pixel where a slip of 1 N fills 200 pixels.
+# 1/50 of a pixel if a slip of 1 N fills 200 pixels.
 TOLERANCE_N = 1e-4
-# Phase of the fastest vibration from one point to the next, at most: no wiggle fits in
-# between.
+# Largest phase of the fastest vibration between two points: no oscillation is missed.
 PHASE_PER_STEP = np.pi / 4
 MOST_HALVINGS = 30
-# Points at transitions, and as many where block 1 slides, at most: many a pixel.
+# Largest number of points at transitions, and of points while block 1 slides.
 MOST_POINTS = 200_000
 
 
 def load_curve(run: Record) -> tuple[FloatArray, FloatArray]:
-    """Times [s] and loads [N] between which F_X(t) is a straight line to within
-    `TOLERANCE_N`.
+    """Return times [s] and loads [N] whose joining lines are within `TOLERANCE_N` of
+    F_X(t).
 
-    F_X grows linearly while block 1 sticks: there only transitions are points. While it
-    slides, intervals are halved until they are straight. Between two points the cubic
-    through both loads and slopes stands for the curve. It leaves the chord by no more
-    than a quarter of the interval times the larger difference between the chord's slope
-    and another. A run with more transitions or slides than some `MOST_POINTS` show is
-    drawn as it looks.
+    While block 1 sticks, F_X grows linearly, and only transitions are points. While it
+    slides, intervals are halved until the chord is accurate. The error of the chord is
+    estimated for the cubic with the loads and slopes at both points: it is at most a
+    quarter of the interval times the larger difference between the slope of the chord
+    and those of the curve. If a run has too many transitions or slides for
+    `MOST_POINTS`, the points keep its appearance only.
     """
     if not isinstance(run, Run):
         raise TypeError(f"a load curve needs a Run, but this is {type(run).__name__}")
@@ -44,7 +43,9 @@ def load_curve(run: Record) -> tuple[FloatArray, FloatArray]:
         for start, end in zip(edges[:-1][slides], edges[1:][slides], strict=True)
     ]
     times = np.unique(
-        np.concatenate([[0.0, run.duration], _seen(run.transitions)["time"], *coarse])
+        np.concatenate(
+            [[0.0, run.duration], _visible(run.transitions)["time"], *coarse]
+        )
     )
     loads, slopes = _loads_and_slopes(run, times)
     before = np.searchsorted(of_first["time"], times[:-1], side="right")
@@ -68,14 +69,17 @@ def load_curve(run: Record) -> tuple[FloatArray, FloatArray]:
 
 
 def load_trace(run: Record) -> pd.DataFrame:
-    """The points of `load_curve` as a table."""
+    """Return the points of `load_curve` as a table."""
     times, loads = load_curve(run)
     return pd.DataFrame({"time_s": times, "tangential_load_N": loads})
 
 
-def _seen(transitions: NDArray[np.void]) -> NDArray[np.void]:
-    """All transitions, or of too many the first, the last, and those of the least and
-    largest load in each pixel of time, which look the same (Jugel et al., 2014)."""
+def _visible(transitions: NDArray[np.void]) -> NDArray[np.void]:
+    """Return all transitions, or enough of them for the same picture.
+
+    If there are too many, each pixel of time keeps the first, the last, and those with
+    the least and the largest load (Jugel et al., 2014).
+    """
     if len(transitions) <= MOST_POINTS:
         return transitions
     pixels = np.floor(MOST_POINTS / 4 * transitions["time"] / transitions["time"][-1])
@@ -87,7 +91,7 @@ def _seen(transitions: NDArray[np.void]) -> NDArray[np.void]:
 
 
 def _loads_and_slopes(run: Run, times: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """F_X [N] and dF_X/dt = K (V - v_1) [N/s] at some times."""
+    """Return F_X [N] and dF_X/dt = K (V - v_1) [N/s] at some times [s]."""
     loads, velocities = run.forces_and_velocities(times, 1)[..., 0]
     slopes = run.chain.drive_stiffness * (run.chain.drive_velocity - velocities)
     return loads, slopes

@@ -1,4 +1,4 @@
-"""The state that the audit carries through a run, and how far rounding has moved it."""
+"""The state of a chain during an audit, and a bound of its rounding error."""
 
 import math
 from typing import NamedTuple
@@ -11,7 +11,7 @@ from precursors.model.chain import FREE, FloatArray
 from precursors.solver.record import IntArray
 from precursors.solver.run import Run
 
-_UNIT = 2.0**-53  # a rounding, relative
+_UNIT = 2.0**-53  # largest relative error of a rounding
 _START_ROUNDINGS = 8
 
 
@@ -19,13 +19,14 @@ class CarriedState(NamedTuple):
     """Modes, velocities and spring forces (not positions) of a chain.
 
     Solver and audit carry spring forces f and velocities v in doubles. Each step rounds
-    them by some units of 2^-53 of the largest they can be, in the norm sum f_i^2/k_i +
-    m v_i^2, twice the energy. A step is a transition or a radian of the fastest motion,
-    and the drive counts as a mass that moves. In this norm the difference of two
-    motions with the same transitions does not grow: free motion conserves it, and a
-    stop reduces it. So roundings add up: those of an interval one by one, as they may
-    all go the same way, those of different intervals as squares. One rounding a step
-    comes to `rounding` [sqrt(J)]: over sqrt(m) that of a velocity [m/s], and times
+    them by some units of 2^-53 of their largest possible size, in the norm sum
+    f_i^2/k_i + m v_i^2, which is twice the energy. A step is a transition or a radian
+    of the fastest motion, and the drive counts as a moving mass. In this norm the
+    difference of two motions with the same transitions does not grow: free motion
+    conserves it, and a stop reduces it. Rounding errors therefore add up. Those of one
+    interval are summed, since they may have the same sign; those of different intervals
+    are summed as squares. With one rounding per step the sum is `rounding` [sqrt(J)].
+    Divided by sqrt(m) it is the error of a velocity [m/s], and multiplied by
     `per_force` that of the net force on each block [N].
     """
 
@@ -42,13 +43,13 @@ class CarriedState(NamedTuple):
     drive_momentum: float
 
     def net_force(self) -> FloatArray:
-        """Force of the springs and the drive on each block [N], shape (N,) (Eqs.
-        2-4)."""
+        """Return the force of the springs and the drive on each block [N], shape (N,)
+        (Eqs. 2-4)."""
         return self.spring_force[:-1] - self.spring_force[1:]
 
     def moves(self) -> NDArray[np.bool_]:
-        """Which blocks move, shape (N,): those without load too, unless all is at
-        rest."""
+        """Which blocks move, shape (N,), including those without load unless all blocks
+        are at rest."""
         moves = self.mode != 0
         if (abs(self.mode) == 1).any():
             return moves
@@ -58,12 +59,12 @@ class CarriedState(NamedTuple):
 
 
 def start_of(run: Run) -> CarriedState:
-    """The state at the start of a run."""
+    """Return the state at the start of a run."""
     chain = run.chain
     positions = run.start_positions
     stretch = -np.diff(positions, prepend=0.0)
-    # Forces at the start are differences of positions, which are known to their
-    # rounding, as velocities are.
+    # Forces at the start are differences of rounded positions; velocities are rounded,
+    # too.
     ends = positions**2 + np.append(0.0, positions[:-1]) ** 2
     at_start = _START_ROUNDINGS * math.sqrt(chain.springs @ ends)
     momentum = math.sqrt(chain.mass) * np.linalg.norm(run.start_velocities)
@@ -87,7 +88,8 @@ def start_of(run: Run) -> CarriedState:
 
 @inner
 def energy(state):
-    """Kinetic energy of the blocks and elastic energy of the springs [J]."""
+    """Return the kinetic energy of the blocks plus the elastic energy of the springs
+    [J]."""
     twice = 0.0
     for i in range(len(state.velocity)):
         elastic = state.spring_force[i] ** 2 / state.springs[i]
@@ -97,7 +99,7 @@ def energy(state):
 
 @inner
 def motion_of(state, rows, modes):
-    """Motion of the blocks that move."""
+    """Return the modal motion of the blocks that move."""
     n = len(modes.frequencies)
     motion = ModalMotion(modes.frequencies, np.zeros(n), np.zeros(n), np.zeros(n))
     j = 0
@@ -118,7 +120,7 @@ def motion_of(state, rows, modes):
 
 @inner
 def advance(state, rows, modes, motion, duration):
-    """Move to the end of an interval; add up roundings."""
+    """Move the state to the end of an interval, and add its rounding errors."""
     before = energy(state)
     fallen = np.zeros(len(state.spring_force))
     fallen[0] = -state.loading_rate * duration

@@ -1,5 +1,4 @@
-"""The walk through the intervals and transitions of a run, which notes what is no
-motion of the model."""
+"""Audit a run: check its intervals and transitions one after the other."""
 
 import math
 from functools import lru_cache, partial
@@ -12,44 +11,44 @@ from precursors.audit.motion import normal_modes, rows_and_modes
 from precursors.audit.report import Audit
 from precursors.model.chain import FREE, linear_weights
 from precursors.model.checks import positive
-from precursors.solver.record import arrays_of, out_of_range, wrong_shape
+from precursors.solver.record import arrays_of, find_range_error, find_shape_error
 from precursors.solver.run import Run
 from precursors.support.waiting import bar
 
 TIME_TOLERANCE = 1e-12
-"""Of the duration: recorded times are rounded once a transition, the intervals are
-not."""
+"""Relative to the duration. Each transition rounds the recorded time, while the
+intervals are more accurate."""
 
 THETA_TOLERANCE = 1e-12
-"""Of F_Z: weights and their sum are rounded."""
+"""Relative to F_Z, since weights and their sum are rounded."""
 
 MAX_PROBLEMS = 20
-"""The audit stops at this many: what follows a wrong transition is wrong, and says
-nothing new."""
+"""The audit stops after this many problems: one wrong transition makes the rest
+wrong."""
 
-_MEMORY = 2e8  # bytes for normal modes
+_MEMORY = 2e8  # bytes for cached normal modes
 
 MAX_VALUES = 500_000_000
-"""The audit stops when it has computed so many values, some half a minute of work:
-slides that are long against the fastest vibration need more."""
+"""The audit stops after computing this many values, in about half a minute. Slides that
+are long compared with the period of the fastest vibration need more."""
 
 
 def audit_run(run: Run, roundings: float) -> Audit:
-    """Audit a run: see `precursors.audit`."""
+    """Audit a run (see `precursors.audit`)."""
     if not isinstance(run, Run):
         raise TypeError(f"what is audited must be a Run, but is {type(run).__name__}")
     positive("roundings", roundings, "1")
-    if malformed := _malformed(run):
-        return Audit(problems=[malformed])
+    if problem := _find_malformed(run):
+        return Audit(problems=[problem])
     auditor = Auditor(run, roundings)
     auditor.walk()
-    return auditor.found
+    return auditor.result
 
 
-def _malformed(run: Run) -> str:
-    """Say why the arrays of a run cannot be audited at all, or nothing."""
+def _find_malformed(run: Run) -> str:
+    """Describe why the arrays of a run cannot be audited; return "" if they can."""
     arrays = arrays_of(run)
-    if reason := wrong_shape(arrays) or out_of_range(arrays):
+    if reason := find_shape_error(arrays) or find_range_error(arrays):
         return reason
     chain = run.chain
     if math.isnan(chain.theta):
@@ -61,7 +60,8 @@ def _malformed(run: Run) -> str:
 
 
 class Auditor:
-    """A walk through a run: the carried state, and what was found so far."""
+    """An audit in progress: the state that is carried through the run, and the
+    result."""
 
     def __init__(self, run: Run, roundings: float) -> None:
         self.run = run
@@ -71,11 +71,11 @@ class Auditor:
         self.modes_of_row = lru_cache(room)(partial(normal_modes, run.chain))
         self.time = 0.0
         self.values_left = MAX_VALUES
-        self.found = Audit(roundings=0.0)
+        self.result = Audit(roundings=0.0)
 
     def walk(self) -> None:
         """Walk through the run, interval by interval, up to `MAX_PROBLEMS` problems."""
-        found = self.found
+        result = self.result
         intervals = self.run.intervals.tolist()
         instants = np.cumsum(intervals, dtype=np.longdouble).astype(float).tolist()
         transitions = [*self.run.transitions.tolist(), None]
@@ -84,8 +84,8 @@ class Auditor:
         started = False
         rows = map(range, stored, stored[1:])
         steps = zip(intervals, instants, transitions, rows, strict=True)
-        told = bar("auditing", len(intervals), steps)
-        for duration, instant, transition, states in told:
+        steps_with_bar = bar("auditing", len(intervals), steps)
+        for duration, instant, transition, states in steps_with_bar:
             if not started and (duration > 0 or transition is None):
                 started = True
                 self.check_start()
@@ -99,17 +99,19 @@ class Auditor:
             if not self.slide(duration - passed):
                 return
             self.time = instant
-            found.n_intervals += 1
-            if len(found.problems) >= MAX_PROBLEMS:
-                del found.problems[MAX_PROBLEMS:]
+            result.n_intervals += 1
+            if len(result.problems) >= MAX_PROBLEMS:
+                del result.problems[MAX_PROBLEMS:]
                 return
             if transition:
                 self.check_transition(not started, *transition)
         self.check_time(self.run.duration, "the duration")
 
     def slide(self, duration: float) -> bool:
-        """Check Coulomb's law between transitions and move the state on; False if that
-        takes too much work."""
+        """Check Coulomb's law between transitions and advance the state.
+
+        Return False if that takes too much work.
+        """
         if duration == 0:
             return True
         state = self.state
@@ -119,7 +121,7 @@ class Auditor:
         )
         self.values_left -= passed.computed
         if self.values_left < 0:
-            self.found.is_undecided = not self.found.problems
+            self.result.is_undecided = not self.result.problems
             radians = duration * modes.frequencies.max(initial=0.0)
             self.report(
                 f"the audit ends here: it cannot look at {duration:.3g} s of "
@@ -127,14 +129,14 @@ class Auditor:
             )
             return False
         for j in np.flatnonzero(np.signbit(passed.lowest)).tolist():
-            what, unit = passed.broken(j, state.mode)
+            what, unit = passed.describe(j, state.mode)
             when = self.time + passed.when[j]
             self.check(-passed.lowest[j], passed.rounding[j], what, unit, when)
         self.time += duration
         return True
 
     def check_state(self, row: int) -> None:
-        """A stored state is the one that is reached."""
+        """Check that a stored state is the present state."""
         state = self.state
         stored = self.run.states
         if (stored.mode[row] != state.mode).any():
@@ -160,7 +162,7 @@ class Auditor:
     def check_transition(
         self, at_start: bool, time: float, block: int, mode: int, load: float
     ) -> None:
-        """Check a recorded transition, then change the block's mode."""
+        """Check a recorded transition, then change the mode of the block."""
         state = self.state
         self.check_time(time, f"a transition of block {block}")
         self.check(
@@ -184,8 +186,10 @@ class Auditor:
         state.mode[block - 1] = mode
 
     def check_release(self, block: int, mode: int, at_start: bool) -> None:
-        """A stuck block slides off at its limit; at the start it may be overloaded, or
-        move."""
+        """Check that a stuck block is released at its limit.
+
+        At the start it may be above its limit, or move.
+        """
         state = self.state
         velocity = state.velocity[block - 1]
         excess = mode * state.net_force()[block - 1] - state.strength[block - 1]
@@ -202,8 +206,8 @@ class Auditor:
                 )
 
     def check_stop(self, block: int, mode: int) -> None:
-        """A sliding block changes its mode where it stops; it sticks if its force
-        allows that."""
+        """Check that a sliding block stops, and that it then sticks if its force allows
+        that."""
         state = self.state
         speed = abs(state.velocity[block - 1])
         force = state.net_force()[block - 1]
@@ -219,8 +223,8 @@ class Auditor:
         state.velocity[block - 1] = 0.0
 
     def check_start(self) -> None:
-        """Stuck blocks are at rest and within their strength once the transitions at
-        time 0 are done."""
+        """Check that stuck blocks are at rest and within their strength after the
+        transitions at time 0."""
         state = self.state
         excess = np.abs(state.net_force()) - state.strength
         for i in np.flatnonzero(state.mode == 0).tolist():
@@ -233,12 +237,12 @@ class Auditor:
             self.check_force(i + 1, "starts stuck beyond mu_s w", excess[i])
 
     def check_force(self, block: int, what: str, wrong: float) -> None:
-        """A net force is not wrong by more than its rounding."""
+        """Check that a net force is wrong by no more than its rounding error."""
         rounding = self.state.rounding[0] * self.state.per_force[block - 1]
         self.check(wrong, rounding, f"block {block} {what}, by", "N")
 
     def check_time(self, time: float, what: str) -> None:
-        """A recorded time is the sum of the intervals up to it."""
+        """Check that a recorded time is the sum of the intervals before it."""
         wrong = abs(time - self.time)
         if not wrong <= TIME_TOLERANCE * self.run.duration:
             self.report(
@@ -253,14 +257,16 @@ class Auditor:
         unit: str,
         time: float | None = None,
     ) -> None:
-        """Report a deviation of more than so many roundings of size `rounding`; a
-        negative deviation passes."""
+        """Report a deviation of more than `roundings` times `rounding`.
+
+        A negative deviation passes.
+        """
         off = float(wrong) / float(rounding) if rounding > 0 else 0.0
-        self.found.roundings = max(self.found.roundings, off)
+        self.result.roundings = max(self.result.roundings, off)
         if not wrong <= self.roundings * rounding:
             self.report(f"{what} {wrong:.3g} {unit}", time)
 
     def report(self, sentence: str, time: float | None = None) -> None:
-        """Add a problem."""
+        """Add a problem to the result."""
         when = self.time if time is None else time
-        self.found.problems.append(f"t = {when:.12g} s: {sentence}")
+        self.result.problems.append(f"t = {when:.12g} s: {sentence}")

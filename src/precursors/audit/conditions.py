@@ -1,4 +1,4 @@
-"""Conditions inside an interval between two transitions, and a proof of them."""
+"""Prove the conditions inside an interval between two transitions."""
 
 import math
 from typing import NamedTuple
@@ -17,18 +17,18 @@ from precursors.model.chain import FloatArray
 from precursors.solver.record import IntArray
 
 _FEWEST_CELLS = 2
-_PARTS = 8  # of a cell for which that does not suffice
-_MOST_SHOWN = 200_000  # values, of an interval in which something is wrong
+_PARTS = 8  # of a cell that cannot be proved as a whole
+_MOST_SHOWN = 200_000  # largest number of values of an interval with a problem
 
 
 class Conditions(NamedTuple):
-    """Functions of the time s since an interval's start that must not be negative in
-    it: base + rate s and a sum over modes.
+    """Functions that must not be negative in an interval.
 
-    One for each sliding block (its velocity [m/s] in the direction of its mode), then
-    two for each stuck block whose force can change (mu_s w - force and mu_s w + force
-    [N]). The first `n_speeds` sum modal velocities, the others displacements. `fourth`
-    bounds the fourth derivative.
+    Each is base + rate s plus a sum over modes, where s is the time since the start of
+    the interval. There is one for each sliding block: its velocity [m/s] in the
+    direction of its mode. Two follow for each stuck block whose force can change: mu_s
+    w - force and mu_s w + force [N]. The first `n_speeds` are sums of modal velocities,
+    the others of displacements. `fourth` bounds the fourth derivative.
     """
 
     motion: ModalMotion
@@ -40,9 +40,12 @@ class Conditions(NamedTuple):
 
 
 class Passed(NamedTuple):
-    """What was found in an interval: the lowest value of each condition, when, and one
-    rounding of it; the blocks, from 0, that they are of; and how many values were
-    computed."""
+    """Result for an interval.
+
+    For each condition it has the lowest value, its time, and the size of one rounding.
+    `sliding` and `stuck` are the blocks of the conditions, counted from 0. `computed`
+    is the number of values computed.
+    """
 
     lowest: FloatArray
     when: FloatArray
@@ -51,8 +54,8 @@ class Passed(NamedTuple):
     stuck: IntArray
     computed: int
 
-    def broken(self, column: int, mode: IntArray) -> tuple[str, str]:
-        """Sentence and unit for a column that is negative."""
+    def describe(self, column: int, mode: IntArray) -> tuple[str, str]:
+        """Return a sentence and a unit for a condition that is violated."""
         n = len(self.sliding)
         if column < n:
             i = self.sliding[column]
@@ -65,8 +68,8 @@ class Passed(NamedTuple):
 
 @outer
 def pass_interval(state, rows, modes, duration, roundings, most):
-    """Prove the conditions of an interval in which rows of blocks move, and move the
-    state to its end."""
+    """Prove the conditions of an interval in which `rows` of blocks move, and advance
+    the state to its end."""
     motion = motion_of(state, rows, modes)
     sliding, stuck = concerned(state, rows)
     conditions = conditions_of(motion, state, rows, modes, sliding, stuck)
@@ -80,8 +83,8 @@ def pass_interval(state, rows, modes, duration, roundings, most):
 
 @inner
 def concerned(state, rows):
-    """Blocks that slide, and stuck ones whose force can change: block 1, and neighbours
-    of those that move."""
+    """Return the blocks that slide, and the stuck blocks whose force can change: block
+    1 and neighbours of moving blocks."""
     is_near = np.zeros(len(state.mode), np.bool_)
     is_near[0] = True
     for first, end in rows:
@@ -93,7 +96,7 @@ def concerned(state, rows):
 
 @inner
 def conditions_of(motion, state, rows, modes, sliding, stuck):
-    """Conditions of an interval, at its start."""
+    """Return the conditions of an interval from the state at its start."""
     n = len(sliding)
     m = len(stuck)
     force = state.spring_force[stuck] - state.spring_force[stuck + 1]
@@ -103,7 +106,7 @@ def conditions_of(motion, state, rows, modes, sliding, stuck):
     if m and stuck[0] == 0:
         rate[n] = -state.loading_rate
         rate[n + m] = state.loading_rate
-    column = np.full(len(state.mode), -1)  # of each block
+    column = np.full(len(state.mode), -1)  # index of each block's condition
     column[sliding] = np.arange(n)
     column[stuck] = np.arange(n, n + m)
     bends = motion.omega**2
@@ -131,14 +134,14 @@ def conditions_of(motion, state, rows, modes, sliding, stuck):
 
 @inner
 def take_modes(motion, s, modal):
-    """Displacements, velocities and accelerations of all modes at the time s."""
+    """Set the displacements, velocities and accelerations of all modes at time s."""
     for j in range(len(motion.omega)):
         modal[0, j], modal[1, j], modal[2, j] = at(motion, j, s)
 
 
 @inner
 def value_and_slope(conditions, column, s, modal):
-    """Value and slope of a function at the time s, of the modes at that time."""
+    """Return value and slope of a condition at time s, from the modes at that time."""
     value = conditions.base[column] + conditions.rate[column] * s
     slope = conditions.rate[column]
     order = 1 if column < conditions.n_speeds else 0
@@ -151,15 +154,15 @@ def value_and_slope(conditions, column, s, modal):
 
 @inner
 def prove(conditions, duration, tolerance, most):
-    """Lowest values that were found and their times, each of shape (number of
-    columns,), and the number of values computed.
+    """Return the lowest values and their times, each of shape (number of conditions,),
+    and the number of values computed.
 
-    Where none is below -tolerance, none is below -2 tolerance anywhere in the interval.
-    The proof: with a fourth derivative of at most M, g is off by at most M d^4/384 on a
-    cell of width d from the cubic that has its values and slopes at both ends, and a
-    cubic is above the least of its Bernstein coefficients. A cell for which that does
-    not suffice is cut, as long as nothing is below -tolerance. The search ends when it
-    has computed more than `most` values.
+    If none is below -tolerance, it is proved that none is below -2 tolerance anywhere
+    in the interval. Let M bound the fourth derivative of a function g. On a cell of
+    width d, g then differs by at most M d^4/384 from the cubic with the same values and
+    slopes at both ends, and a cubic is not below its least Bernstein coefficient. A
+    cell for which this bound is not sufficient is cut, unless a value is below
+    -tolerance. The search ends after more than `most` values.
     """
     columns = len(tolerance)
     n_modes = len(conditions.motion.omega)
@@ -229,8 +232,11 @@ def cut(
     when,
     modal,
 ):
-    """Go through a cell, at whose start value and slope are `low` and `rise`, in steps
-    that can be proved; return the number of values computed."""
+    """Prove a condition in a cell by smaller steps; return the number of values
+    computed.
+
+    `low` and `rise` are value and slope at the start of the cell.
+    """
     width = (stop - start) / _PARTS
     computed = 0
     while start < stop and computed <= most:
@@ -256,7 +262,10 @@ def cut(
 
 @inner
 def lower_bound(width, low, high, rise, fall, fourth):
-    """Bound a function from below in a cell, from its values at both edges, its slopes
-    `rise` and `fall` there, and its fourth derivative."""
+    """Return a lower bound of a function in a cell.
+
+    It follows from the values `low` and `high` and the slopes `rise` and `fall` at both
+    ends, and from a bound of the fourth derivative.
+    """
     inside = min(low + rise * (width / 3), high - fall * (width / 3))
     return min(low, high, inside) - fourth * (width**4 / 384)

@@ -1,5 +1,5 @@
-"""The motion between two transitions, by the normal modes of the blocks that slide
-(Eqs. 2-6)."""
+"""The motion between two transitions, from the normal modes of the sliding blocks (Eqs.
+2-6)."""
 
 import math
 from collections.abc import Callable
@@ -14,16 +14,17 @@ from precursors.model.chain import Chain, FloatArray
 from precursors.solver.record import IntArray
 from precursors.support.compiled import entry, untyped
 
-# Compiled, as a run has as many intervals as transitions; a division by zero is inf.
+# Compiled, because a run has as many intervals as transitions. Division by zero is inf.
 inner: Any = untyped.njit(error_model="numpy")
 outer: Any = entry(Path(__file__).parent, error_model="numpy")
 
 
 class Modes(NamedTuple):
-    """Normal modes of rows of blocks that slide, between neighbours that do not move.
+    """Normal modes of rows of sliding blocks, whose neighbours do not move.
 
-    Of all rows, mode by mode: frequencies [rad/s]; shapes, the n displacements of the
-    row's blocks; spring_shapes, the n + 1 forces by which its springs fall.
+    The arrays list all modes of all rows. `frequencies` are in rad/s. For each mode of
+    a row of n blocks, `shapes` has the n displacements of the blocks, and
+    `spring_shapes` the n + 1 forces by which the springs are relieved.
     """
 
     frequencies: FloatArray
@@ -32,20 +33,21 @@ class Modes(NamedTuple):
 
 
 def normal_modes(chain: Chain, first: int, end: int) -> Modes:
-    """Normal modes of the blocks from `first` to before `end`, counted from 0, and of
-    the springs behind and ahead of them.
+    """Return the normal modes of blocks `first` to `end` - 1, counted from 0, with the
+    springs behind and ahead of them.
 
-    With springs s, the stiffness matrix is B B^T, B the bidiagonal matrix of
-    +sqrt(s_i), -sqrt(s_i+1). Its singular values, not the eigenvalues of the product,
-    keep the digits of a mode that is slower than the fastest by orders of magnitude
-    (soft drive). Its right vectors give the spring forces without differences of nearly
-    equal displacements. LAPACK's gesvd leaves a bidiagonal matrix as it is and finds
-    its singular values to high relative accuracy (Demmel & Kahan, 1990).
+    With spring constants s_i, the stiffness matrix is B B^T, where B is the bidiagonal
+    matrix of +sqrt(s_i), -sqrt(s_i+1). With a soft drive one mode is slower than the
+    others by orders of magnitude. The singular values of B keep its digits, which the
+    eigenvalues of the product lose. The right singular vectors give the spring forces
+    without differences of nearly equal displacements. LAPACK's gesvd computes the
+    singular values of a bidiagonal matrix to high relative accuracy (Demmel & Kahan,
+    1990).
     """
     roots = np.sqrt(chain.springs[first : end + 1])
     n = end - first
-    # A last row of zeros makes B square where a spring follows the last block; it adds
-    # a frequency of zero.
+    # If a spring follows the last block, a last row of zeros makes B square; it adds a
+    # frequency of zero.
     balance = np.diag(roots) - np.diag(roots[1:], 1)
     balance[n:] = 0.0
     left, singular, right, _ = dgesvd(balance)
@@ -65,8 +67,10 @@ NO_MODES = Modes(np.zeros(0), np.zeros(0), np.zeros(0))
 def rows_and_modes(
     moves: NDArray[np.bool_], modes_of_row: Callable[[int, int], Modes]
 ) -> tuple[IntArray, Modes]:
-    """Rows of neighbours that move, the first block of each, from 0, and the one beyond
-    its last; and their modes one after the other."""
+    """Return the rows of moving neighbours, and their modes one after the other.
+
+    A row is given by its first block, counted from 0, and the block after its last.
+    """
     padded = np.zeros(len(moves) + 2, dtype=bool)
     padded[1:-1] = moves
     rows = (padded[1:] != padded[:-1]).nonzero()[0].reshape(-1, 2)
@@ -75,8 +79,8 @@ def rows_and_modes(
 
 
 class ModalMotion(NamedTuple):
-    """Motion mode by mode: q'' + omega^2 q = push + ramp s, q = 0 and q' = speed at s =
-    0."""
+    """Motion of each mode: q'' + omega^2 q = push + ramp s, with q = 0 and q' = speed
+    at s = 0."""
 
     omega: FloatArray
     speed: FloatArray
@@ -86,7 +90,7 @@ class ModalMotion(NamedTuple):
 
 @inner
 def at(motion, j, s):
-    """Displacement, velocity and acceleration of mode j at the time s."""
+    """Return displacement, velocity and acceleration of mode j at time s."""
     omega = motion.omega[j]
     speed = motion.speed[j]
     push = motion.push[j]
@@ -95,8 +99,8 @@ def at(motion, j, s):
     versine = 2 * math.sin(half) ** 2  # 1 - cos without cancellation
     sine = 2 * math.sin(half) * math.cos(half)
     cosine = 1 - versine
-    # The difference cancels for omega s << 1, but relative to the drive's V s it keeps
-    # all digits.
+    # For omega s << 1 the difference cancels, but it is accurate relative to the path V
+    # s of the drive.
     lag = s - sine / omega
     displacement = speed / omega * sine + (push * versine + ramp * lag) / omega**2
     velocity = speed * cosine + push / omega * sine + ramp / omega**2 * versine
@@ -105,15 +109,18 @@ def at(motion, j, s):
 
 @inner
 def largest_acceleration(motion, j):
-    """Largest acceleration of mode j; omega^2 and omega^3 times it are the largest
-    fourth derivatives of displacement and velocity."""
+    """Return the largest acceleration of mode j.
+
+    Times omega^2 and omega^3 it is the largest fourth derivative of displacement and
+    velocity.
+    """
     omega = motion.omega[j]
     return math.hypot(motion.push[j], motion.ramp[j] / omega - motion.speed[j] * omega)
 
 
 @inner
 def largest_speed(motion):
-    """Largest speed that all modes together can have: the root of the sum of the
+    """Return a bound of the speed of all modes: the root of the sum of their
     squares."""
     total = 0.0
     for j in range(len(motion.omega)):

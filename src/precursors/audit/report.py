@@ -1,4 +1,4 @@
-"""The outcome of an audit: a motion of the model, or what exceeds its tolerance."""
+"""The result of an audit."""
 
 import math
 from dataclasses import dataclass, field
@@ -6,12 +6,12 @@ from dataclasses import dataclass, field
 
 @dataclass
 class Audit:
-    """Outcome of an audit: what exceeds its tolerance, in at most `checks.MAX_PROBLEMS`
-    short sentences.
+    """Result of an audit.
 
-    `roundings` is the largest deviation of a force or a velocity, in roundings.
-    `is_undecided` says that no more was found than that the audit would take too much
-    work: that is the one problem.
+    `problems` are at most `checks.MAX_PROBLEMS` sentences about deviations above the
+    tolerance. `roundings` is the largest deviation of a force or a velocity, in
+    roundings. `is_undecided` is True if the only problem is that the audit takes too
+    much work.
     """
 
     roundings: float = math.nan

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from precursors.analysis.events import agreeing, slip_events, transitions_right
-from precursors.analysis.slips import first_global
+from precursors.analysis.agreement import agreeing, transitions_right
+from precursors.analysis.slips import slip_events
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.record import COLUMNS
 from precursors.solver.run import Record
@@ -110,8 +110,8 @@ def until_global_slip(run: Record) -> Record:
     Without one, or if it does not end, nothing is cut.
     """
     slips = slip_events(run)
-    first = first_global(slips["is_global"])
-    end = np.nan if first is None else float(slips["end_s"][first])
+    ends = slips["end_s"][slips["is_global"]]
+    end = float(ends[0]) if len(ends) else np.nan
     if np.isnan(end):
         return run
     transitions = run.transitions[run.transitions["time"] <= end]

@@ -34,39 +34,6 @@ from precursors.support.checkout import built_state, git_state
 from precursors.support.files import write_table
 from precursors.support.measured import read_profile, read_weights
 
-FOUND = "{counted} counted in Fig. 13, of {events_to_global_slip} "
-FIRST_SLIP = """\
-up to the first global slip and {events_in_all} in {duration_s:g} s.
-mu_sapp = {mu_sapp:.3f} = {largest_load_N:.1f} N / {F_Z:g} N; first global slip at {global_slip_s:.3f} s.
-"""
-# Of `summarise`, what `simulate` tells.
-SHOWN = (
-    "transitions",
-    "events_to_global_slip",
-    "events_counted",
-    "events_in_all",
-    "mu_sapp",
-    "largest_load_N",
-    "global_slip_load_N",
-    "global_slip_s",
-    "global_slip_end_s",
-)
-# Columns of a slip table that follow from others in it, and make it wide to read.
-TOLD_TWICE = ("largest_load_N", "front_length_m")
-NO_SLIP = "in {duration_s:g} s; no global slip.\n"
-SCORE = "{problem}: {transitions_right} of {transitions_true} transitions right"
-ERRORS = (
-    ", times within {time_error_s:.1e} s ({time_error_to_global_slip_s:.1e} s to the "
-    "first global slip)"
-)
-COUNTED = (
-    "; events counted {events_counted} (true: {events_counted_true}), "
-    "mu_sapp {mu_sapp:.4f} (true: {mu_sapp_true:.4f})"
-)
-ENDS_EARLY = (
-    "; it ends at {ends_s:g} s, before the first global slip (true: {events_counted_true} "
-    "events counted, mu_sapp {mu_sapp_true:.4f})"
-)
 # A run with more transitions up to the first global slip takes seconds to repeat.
 MOST_REPEATED = 50_000
 
@@ -76,25 +43,36 @@ def simulate(arguments: Namespace) -> None:
     from precursors.analysis.summary import summarise
 
     run = run_of_options(arguments)
-    [found] = summarise([run]).to_dict("records")
-    values: dict[str, Any] = {
-        "n_blocks": run.chain.n_blocks,
-        "duration_s": run.duration,
-        **{name: found[name] for name in SHOWN},
-    }
+    records: Any = summarise([run]).to_dict("records")
+    numbers = records[0]
+    values = {"n_blocks": run.chain.n_blocks, "duration_s": run.duration, **numbers}
+    del values["reached"]
     advice = "--output RUN.h5 saves the run; precursors plot RUN.h5 draws it"
     if arguments.output is not None:
         run.save(arguments.output)
         values["output"] = str(arguments.output)
         advice = f"precursors plot {shlex.quote(values['output'])} draws it"
     if not arguments.json:
-        text = FOUND + (FIRST_SLIP if found["reached"] else NO_SLIP)
-        counted = several(found["events_counted"], "event")
-        print(text.format(**values, F_Z=run.chain.normal_load, counted=counted))
+        print(run_in_words(run, numbers), end="\n\n")
     show_values(values, arguments.json)
     if not arguments.json:
         print(f"\n{advice}")
-    tell_accuracy(run, found["global_slip_s"])
+    tell_accuracy(run, numbers["global_slip_s"])
+
+
+def run_in_words(run: Run, numbers: Mapping[Any, Any]) -> str:
+    """A sentence about a run, from its row of `summarise`."""
+    counted = several(numbers["events_counted"], "event")
+    text = f"{counted} counted in Fig. 13, of {numbers['events_to_global_slip']} "
+    if not numbers["reached"]:
+        return f"{text}in {run.duration:g} s; no global slip."
+    return (
+        f"{text}up to the first global slip and {numbers['events_in_all']} in "
+        f"{run.duration:g} s.\n"
+        f"mu_sapp = {numbers['mu_sapp']:.3f} = {numbers['largest_load_N']:.1f} N / "
+        f"{run.chain.normal_load:g} N; first global slip at "
+        f"{numbers['global_slip_s']:.3f} s."
+    )
 
 
 def slips(arguments: Namespace) -> None:
@@ -109,14 +87,15 @@ def slips(arguments: Namespace) -> None:
     if arguments.output is not None:
         write_table(table, arguments.output, arguments.decimal)
     if arguments.json:
-        found = table.astype(object).where(table.notna(), None)
-        print(json.dumps(found.to_dict(orient="records"), indent=1))
+        rows = table.astype(object).where(table.notna(), None)
+        print(json.dumps(rows.to_dict(orient="records"), indent=1))
     elif arguments.output is not None:
         print(f"{several(len(table), 'event')}: {arguments.output}")
     elif table.empty:
         print("no slip event")
     else:
-        shown = table.drop(columns=[*OF_SLIDER, *TOLD_TWICE])
+        # What follows from other columns makes the table wide to read.
+        shown = table.drop(columns=[*OF_SLIDER, "largest_load_N", "front_length_m"])
         print(shown.to_string(index=False, na_rep="-", float_format="{:.7g}".format))
     tell_accuracy(run, first_global_slip)
 
@@ -181,10 +160,32 @@ def score(arguments: Namespace) -> None:
 
     values = score(arguments.file, arguments.problem, arguments.ties)
     if not arguments.json:
-        errors = ERRORS if values["transitions_right"] else ""
-        numbers = ENDS_EARLY if np.isnan(values["mu_sapp"]) else COUNTED
-        print((SCORE + errors + numbers).format(**values), end="\n\n")
+        print(score_in_words(values), end="\n\n")
     show_values(values, arguments.json)
+
+
+def score_in_words(values: Mapping[str, Any]) -> str:
+    """A sentence about a score."""
+    text = (
+        f"{values['problem']}: {values['transitions_right']} of "
+        f"{values['transitions_true']} transitions right"
+    )
+    if values["transitions_right"]:
+        text += (
+            f", times within {values['time_error_s']:.1e} s "
+            f"({values['time_error_to_global_slip_s']:.1e} s to the first global slip)"
+        )
+    true_counted = values["events_counted_true"]
+    true_friction = values["mu_sapp_true"]
+    if np.isnan(values["mu_sapp"]):
+        return (
+            f"{text}; it ends at {values['ends_s']:g} s, before the first global slip "
+            f"(true: {true_counted} events counted, mu_sapp {true_friction:.4f})"
+        )
+    return (
+        f"{text}; events counted {values['events_counted']} (true: {true_counted}), "
+        f"mu_sapp {values['mu_sapp']:.4f} (true: {true_friction:.4f})"
+    )
 
 
 def version(_: Namespace) -> None:
@@ -273,10 +274,10 @@ def _chain(
 def tell_accuracy(run: Record, first_global_slip: float) -> None:
     """Say if a light block decides what events are, or if roundings decide the first
     global slip [s]."""
-    from precursors.analysis.events import told_of_light_blocks
     from precursors.analysis.horizon import predicted_errors
+    from precursors.analysis.slips import describe_light_blocks
 
-    if words := told_of_light_blocks(run):
+    if words := describe_light_blocks(run):
         tell(words)
     until = run.transitions[run.transitions["time"] <= first_global_slip]
     if not isinstance(run, Run) or not 0 < len(until) <= MOST_REPEATED:

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from precursors.cli.options import DATA
 from precursors.model.chain import FloatArray
-from precursors.model.checks import positive
 from precursors.solver.run import Record
 from precursors.support.measured import LENGTH, LOAD, TIME, Quantity
 
@@ -26,46 +26,30 @@ LEAST_OVERLAP = 0.1
 
 
 def measured_data(arguments: Namespace, run: Record) -> list[Measured]:
-    """Measured values of each file, from the start of the run on, without the offset of
-    F_X; a line says what they are, and others if they may be something else."""
-    from precursors.figures.run import AXES, read_measured
+    """What is measured in each file; lines say what it is, and if it may be something
+    else."""
+    from precursors.figures.run import axes_of, read_measured
 
-    figure = arguments.figure
-    if not AXES[figure]:
-        raise ValueError(f"{arguments.data[0]}: a {figure} takes no data")
-    x = AXES[figure][0]
+    x, *_ = axes_of(arguments.figure)
     if x is not TIME and given(arguments, ("sample_rate", "data_start")):
         raise ValueError("--sample-rate and --data-start need --figure load or curve")
-    series = []
+    measured = []
     names = [Path(path).name for path in arguments.data]
-    n = len(names)
     for i, path in enumerate(arguments.data):
-        rate = of_file("sample-rate", arguments.sample_rate, i, n)
-        start = of_file("data-start", arguments.data_start, i, n)
-        offset = of_file("data-offset", arguments.data_offset, i, n)
-        if rate is not None:
-            positive("--sample-rate", rate, "Hz")
-        how = how_to_read(arguments, "data", i)
-        for each in read_measured(path, figure, run, sample_rate=rate, **how):
-            data = each.points
+        how = {
+            name: of_file(name, getattr(arguments, name), i, len(names))
+            for name in DATA
+        }
+        how |= how_to_read(arguments, "data", i)
+        for each in read_measured(path, arguments.figure, run, **how):
             y = LENGTH if each.are_lengths else LOAD
-            if offset is not None and LOAD in (x, y):
-                data[:, (x, y).index(LOAD)] -= offset
-            if start is not None:
-                data[:, 0] -= start
-                data = data[data[:, 0] >= 0]
-            if not len(data):
-                raise ValueError(f"{path} ends before --data-start")
-            columns = {x: data[:, 0], y: data[:, 1]}
-            ranges = (
-                f"{q} {values.min():g} to {values.max():g}"
-                for q, values in columns.items()
-            )
-            tell(f"{path}: {several(len(data), 'point')}, {', '.join(ranges)}")
+            columns = dict(zip((x, y), each.points.T, strict=True))
+            ranges = (f"{q} {x.min():g} to {x.max():g}" for q, x in columns.items())
+            tell(f"{path}: {several(len(each.points), 'point')}, {', '.join(ranges)}")
             tell_doubts(path, columns, run)
-            name = path if names.count(each.name) > 1 else each.name
-            series.append(replace(each, name=name, points=data))
-    return series
+            is_alone = names.count(each.name) == 1
+            measured.append(each if is_alone else replace(each, name=path))
+    return measured
 
 
 def tell_doubts(path: str, data: Mapping[Quantity, FloatArray], run: Record) -> None:
@@ -112,7 +96,7 @@ def how_to_read(arguments: Namespace, option: str, place: int = 0) -> dict[str, 
     choice = of_file("columns", arguments.columns, i, n) or {}
     return {
         "choice": {key: choice[key] for key in KEYS[option] if key in choice},
-        "header_line": of_file("header-line", arguments.header_line, i, n),
+        "header_line": of_file("header_line", arguments.header_line, i, n),
     }
 
 
@@ -121,8 +105,8 @@ def of_file(option: str, values: Sequence[Any] | None, place: int, number: int) 
     or once for each."""
     if values and len(values) not in (1, number):
         raise ValueError(
-            f"--{option} must be given once, or once for each of {several(number, 'file')}, "
-            f"but is given {len(values)} times"
+            f"--{option.replace('_', '-')} must be given once, or once for each of "
+            f"{several(number, 'file')}, but is given {len(values)} times"
         )
     return values and values[place if len(values) > 1 else 0]
 

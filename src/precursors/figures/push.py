@@ -1,5 +1,4 @@
-"""The push along the row: what a slip adds and releases, and why it stops where it
-does."""
+"""The push along the row: what a slip adds and releases, and how far it can reach."""
 
 from collections.abc import Sequence
 from typing import Any

@@ -18,7 +18,7 @@ from precursors.analysis.slips import slip_table
 from precursors.figures import precursor_lengths, push, scene, wave
 from precursors.figures.style import LOOK, Look, Measured
 from precursors.figures.wave import Movie
-from precursors.model.checks import number_array
+from precursors.model.checks import number_array, positive
 from precursors.solver.run import Record, Run
 from precursors.support.files import AnyPath
 from precursors.support.measured import LENGTH, LOAD, TIME, Quantity, read_series
@@ -91,16 +91,14 @@ def plot(
         raise ValueError("only a push takes events")
     if figure != "lengths" and not isinstance(run, Run):
         raise ValueError(f"a {figure} needs a Run, but this is a Record")
-    if not AXES[figure]:
-        if data is not None:
-            raise ValueError(f"a {figure} takes no data")
-        if figure == "push":
-            return push.draw(run, slip_table(run), events, title, look)
+    measured = [] if data is None else _measured(data, figure, run)
+    slips = slip_table(run)
+    if figure == "push":
+        return push.draw(run, slips, events, title, look)
+    if figure == "wave":
         if title is not None or look != LOOK:
             raise ValueError("a wave takes no title or look")
-        return wave.draw(run, slip_table(run))
-    measured = _measured(data, figure, run)
-    slips = slip_table(run)
+        return wave.draw(run, slips)
     if figure == "lengths":
         weights = run.chain.weights
         return precursor_lengths.draw([slips], measured, title or "", look, weights)
@@ -116,22 +114,56 @@ def plot(
     return scene.draw(slips, load_trace(run), title, in_metres, look)
 
 
+def axes_of(figure: str) -> tuple[Quantity, ...]:
+    """What is measured for a figure, see `AXES`."""
+    if not AXES[figure]:
+        raise ValueError(f"a {figure} takes no data")
+    return AXES[figure]
+
+
 def read_measured(
-    source: Table, figure: str, run: Record, **how: Any
+    source: Table,
+    figure: str,
+    run: Record,
+    sample_rate: float | None = None,
+    data_start: float | None = None,
+    data_offset: float | None = None,
+    **how: Any,
 ) -> list[Measured]:
-    """Read what a table has for a figure of a run; `how` as for `read_series`."""
-    x, *ys = AXES[figure]
+    """Read what a table has for a figure of a run, from the start of the run on and
+    without the offset of F_X.
+
+    Parameters
+    ----------
+    sample_rate : float, optional
+        Rate [Hz] of a table without times.
+    data_start, data_offset : float, optional
+        Time in the table at which the run starts [s], and F_X there at no load [N].
+    how
+        As for `read_series`.
+    """
+    x, *ys = axes_of(figure)
+    if sample_rate is not None:
+        positive("sample_rate", sample_rate, "Hz")
     name = Path(source).name if isinstance(source, (str, PathLike)) else "measured"
-    return [
-        Measured(name, points, y is LENGTH)
-        for y, points in read_series(source, x, ys, run.chain.length, **how)
-    ]
+    measured = []
+    for y, points in read_series(
+        source, x, ys, run.chain.length, sample_rate=sample_rate, **how
+    ):
+        if data_offset is not None and LOAD in (x, y):
+            points[:, (x, y).index(LOAD)] -= data_offset
+        if data_start is not None:
+            points[:, 0] -= data_start
+        after = points if data_start is None else points[points[:, 0] >= 0]
+        if not len(after):
+            raise ValueError(f"{name} ends before the start of the run")
+        measured.append(Measured(name, after, y is LENGTH))
+    return measured
 
 
 def _measured(data: Any, figure: str, run: Record) -> list[Measured]:
     """Measured points of a table, of a list of tables, or in an array."""
-    if data is None:
-        return []
+    axes_of(figure)
     kinds = (str, PathLike, pd.DataFrame, Measured)
     tables = [data] if isinstance(data, kinds) else data
     if isinstance(tables, list) and all(isinstance(each, kinds) for each in tables):

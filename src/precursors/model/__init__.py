@@ -1,1 +1,1 @@
-"""The chain that is simulated, its scenes and its statics (Eqs. 2-14)."""
+"""Model: the chain of blocks and its statics (Eqs. 2-14)."""

@@ -1,4 +1,4 @@
-"""The chain of blocks: what the equations of motion hold (Eqs. 2-10 of the paper)."""
+"""The chain of blocks, with the parameters of the equations of motion (Eqs. 2-10)."""
 
 from __future__ import annotations
 
@@ -25,21 +25,22 @@ from precursors.model.checks import (
 from precursors.model.profile import shares_of_profile
 
 FloatArray = NDArray[np.float64]
-# Beyond these a single slip takes more windows of time than a run can have, or a time
-# is lost in rounding.
+# Beyond these limits, a single slip needs more steps than a run may have, or its
+# duration is lost in rounding.
 STIFFEST = 1e12
 FASTEST = 1e20
-# The paper's loading, by default.
+# The paper's loading is the default.
 N_BLOCKS = 10
 THETA = 0.0
 NORMAL_LOAD = 400.0
 CELL_SPACING = 0.06  # of its two load cells [m]
-# Mode of a block without load in a state: it moves without friction, so that it neither
-# sticks nor slips and has no transitions.
+# Mode of a block without load: it moves without friction, so it neither sticks nor
+# slips, and it has no transitions.
 FREE = 2
-# Of the mean load: a block with less rings on from one slip into the next, and would join
-# them in one event. In 60 random chains under the paper's drive, mu_sapp is the same with
-# and without the light blocks from 6e-5 on, in 38 % at 1e-5 and in 12 % from 1e-6 down.
+# Share of the mean load below which a block does not count in slip events. Such a light
+# block vibrates from one slip into the next, and would join them into one event. In 60
+# random chains under the paper's drive, light blocks leave mu_sapp unchanged in all
+# chains from 6e-5 on, in 38 % at 1e-5, and in 12 % at 1e-6 and below.
 LEAST_SHARE = 1e-4
 _POSITIVE = {
     "mass": "kg",
@@ -72,8 +73,8 @@ class Chain:
     length : float
         Length L of the contact [m], positive.
 
-    A chain of `from_slider` knows the theta that it was made with, and so do its runs;
-    of other weights `theta` is NaN.
+    The attribute `theta` is the value given to `from_slider`, and NaN for a chain made
+    in another way.
     """
 
     weights: FloatArray
@@ -140,8 +141,8 @@ class Chain:
         n_blocks : int
             Number N of blocks, at least 1.
         theta : float or str
-            Degree of non-uniformity of the normal loading, -1 <= theta <= 1; a fraction
-            as "5/6" is read.
+            Degree of non-uniformity of the normal loading, -1 <= theta <= 1, as a
+            number or a fraction such as "5/6".
         normal_load : float
             Total normal load F_Z [N].
         mu_s, mu_k : float
@@ -151,11 +152,13 @@ class Chain:
         slider_mass, youngs_modulus, cross_section, length : float
             M [kg], E [Pa], S [m^2] and L [m] of the slider.
         weights : array_like, shape (N,), optional
-            Normal load of each block [N], from the trailing edge on, as measured;
-            n_blocks, theta and normal_load must then be left out.
+            Measured normal load of each block [N], from the trailing edge on. It
+            replaces n_blocks, theta and normal_load.
 
-        A ValueError says in one line which parameter is wrong, what it must be, and
-        what it is.
+        Raises
+        ------
+        ValueError
+            In one line: which parameter is wrong, what it must be, and what it is.
         """
         if weights is None:
             loads = linear_weights(n_blocks, normal_load, theta)
@@ -191,9 +194,10 @@ class Chain:
     ) -> Chain:
         """Cut a slider into N blocks whose loads have the shape of a measured profile.
 
-        Without positions the profile is constant over each of its M equal cells. With
-        them it is straight from one to the next, and keeps its end values outside. It
-        is integrated over each block and scaled to the total load.
+        Without positions, the profile is constant over each of its M equal cells. With
+        positions, it is interpolated linearly between them and constant beyond the
+        first and the last. It is integrated over each block and scaled to the total
+        load.
 
         Parameters
         ----------
@@ -228,8 +232,8 @@ class Chain:
 
     @property
     def bears_load(self) -> NDArray[np.bool_]:
-        """Which blocks bear a load that counts in slip events: at least `LEAST_SHARE`
-        of the mean, shape (N,)."""
+        """Which blocks count in slip events, shape (N,): those that bear at least
+        `LEAST_SHARE` of the mean load."""
         return self.weights >= LEAST_SHARE * self.weights.mean()
 
     @property
@@ -250,12 +254,12 @@ class Chain:
 
     @property
     def fastest_frequency_bound(self) -> float:
-        """Angular frequency [rad/s] above all of the chain's (Gershgorin)."""
+        """Upper bound of the chain's angular frequencies [rad/s] (Gershgorin)."""
         return math.sqrt((4 * self.stiffness + self.drive_stiffness) / self.mass)
 
     @property
     def loading_rate(self) -> float:
-        """Growth K V of the tangential load while block 1 sticks [N/s]."""
+        """Rate K V at which the tangential load grows while block 1 sticks [N/s]."""
         return self.drive_stiffness * self.drive_velocity
 
     def __repr__(self) -> str:
@@ -268,9 +272,9 @@ class Chain:
         )
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # A copy is checked and read-only, as the chain itself.
-        given = tuple(getattr(self, name) for name in ARGUMENTS)
-        return type(self), given, {"theta": self.theta}
+        # A copy is made by the constructor, so it is checked and read-only, too.
+        arguments = tuple(getattr(self, name) for name in ARGUMENTS)
+        return type(self), arguments, {"theta": self.theta}
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Chain):
@@ -285,7 +289,7 @@ class Chain:
 
 
 ARGUMENTS = [field.name for field in fields(Chain) if field.init]
-# Arguments of `Chain.from_slider` and their defaults, the paper's.
+# Arguments of `Chain.from_slider` and their defaults, which are the paper's.
 SLIDER = {
     name: p.default
     for name, p in inspect.signature(Chain.from_slider).parameters.items()
@@ -293,14 +297,14 @@ SLIDER = {
 
 
 def remember_theta(chain: Chain, theta: float | str) -> Chain:
-    """Let a chain that was just made know its theta."""
+    """Set the theta of a new chain, and return the chain."""
     object.__setattr__(chain, "theta", parse_theta(theta))
     return chain
 
 
 def linear_weights(n_blocks: int, normal_load: float, theta: float | str) -> FloatArray:
-    """Normal loads w_i that change linearly along the slider [N], shape (N,) (Eq. 7;
-    w_1 = F_Z at N = 1)."""
+    """Return normal loads w_i [N], shape (N,), that change linearly along the slider
+    (Eq. 7; w_1 = F_Z for N = 1)."""
     n = whole("n_blocks", n_blocks, MOST_BLOCKS)
     load = positive("normal_load", normal_load, "N")
     degree = parse_theta(theta)
@@ -309,8 +313,7 @@ def linear_weights(n_blocks: int, normal_load: float, theta: float | str) -> Flo
 
 
 def parse_theta(theta: float | str) -> float:
-    """Read theta from a number between -1 and 1, or from a fraction written as
-    "5/6"."""
+    """Read theta from a number between -1 and 1, or from a fraction such as "5/6"."""
     with suppress(ArithmeticError, ValueError):
         if isinstance(theta, str):
             plain = theta.replace("_", "?")  # Python reads 0_1 as 1
@@ -327,12 +330,11 @@ def parse_theta(theta: float | str) -> float:
 def theta_from_load_cells(
     load_a: float, load_b: float, spacing: float, length: float
 ) -> Fraction:
-    """Degree of non-uniformity from two load cells: (F_ZB - F_ZA)/F_Z * L/d, as in the
-    paper's Sect. 5.2.
+    """Return theta from two load cells: (F_ZB - F_ZA)/F_Z * L/d (Sect. 5.2).
 
-    The straight line through the readings of two cells a distance `spacing` [m] apart
-    is extended over the contact of length `length` [m]. Nothing is rounded: 100 N and
-    300 N at 60 mm on 100 mm give 5/6.
+    The loads [N] are measured at two cells a distance d = `spacing` [m] apart, and are
+    extrapolated linearly over the contact length L [m]. The result is exact: 100 N and
+    300 N, 60 mm apart on 100 mm, give 5/6.
     """
     a = Fraction(repr(not_negative("load_a", load_a, "N")))
     b = Fraction(repr(not_negative("load_b", load_b, "N")))
@@ -349,8 +351,8 @@ def theta_from_load_cells(
 
 
 def _must_agree(name: str, given: object, *allowed: object) -> None:
-    """Refuse an argument that weights replace, unless it is left out, says the same or
-    is NaN."""
+    """Refuse an argument that `weights` replace, unless it is omitted, agrees with them
+    or is NaN."""
     if given == given and given not in allowed:
         raise ValueError(f"{name} must not be given beside weights, but is {given!r}")
 

@@ -1,5 +1,5 @@
-"""Checks of arguments: each returns the value, or raises a ValueError that names the
-parameter."""
+"""Check arguments: each function returns the value, or raises a ValueError that names
+the parameter."""
 
 import math
 from contextlib import suppress
@@ -9,7 +9,7 @@ from typing import Any, Literal, TypeGuard
 import numpy as np
 from numpy.typing import NDArray
 
-# Where a run ends before its duration is over.
+# Where a run ends if that comes before its duration is over.
 Until = Literal["global slip"] | None
 
 # Products and squares of three such numbers stay within the range of doubles.
@@ -25,21 +25,21 @@ def number(name: str, value: object, unit: str) -> float:
         with suppress(OverflowError):
             if math.isfinite(result := float(value)):
                 return result
-    # Of each block, or in time.
+    # A list may be meant for the blocks, and a function for a change in time.
     many = callable(value) or isinstance(value, (list, tuple, np.ndarray))
     kind = "one number for all blocks and times" if many else "a finite number"
     raise ValueError(f"{name} must be {kind} [{unit}], but is {value!r}")
 
 
 def is_number(value: object) -> TypeGuard[Real]:
-    """Whether a value is a real number by its type, as booleans and texts are not."""
+    """Whether the type of a value is a real number; booleans and texts are refused."""
     return isinstance(value, Real) and not isinstance(value, bool)
 
 
 def number_array(name: str, values: Any, unit: str) -> NDArray[np.float64]:
     """Return a new array of floats, or raise a ValueError that names the parameter.
 
-    They are numbers by their type, without a mask or a unit of their own.
+    Texts, masked arrays and arrays with units are refused.
     """
     wanted = f"{name} must be numbers [{unit}]"
     if isinstance(values, (list, tuple)):
@@ -63,8 +63,10 @@ def number_array(name: str, values: Any, unit: str) -> NDArray[np.float64]:
 
 
 def block_array(name: str, values: Any, unit: str) -> NDArray[np.float64]:
-    """Return a new array of floats along the chain, or raise a ValueError, also of a
-    pandas Series whose index is not in order."""
+    """Return a new array of floats, one per block, or raise a ValueError.
+
+    A pandas Series is refused if its index is not in order.
+    """
     index: Any = getattr(values, "index", None)
     if not getattr(index, "is_monotonic_increasing", True):
         raise ValueError(
@@ -75,14 +77,14 @@ def block_array(name: str, values: Any, unit: str) -> NDArray[np.float64]:
 
 
 def _shown(values: object) -> str:
-    """The beginning of an array, on one line."""
+    """Return the beginning of an array's text, on one line."""
     text = " ".join(repr(values).split())
     return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]} ..."
 
 
 def positive(name: str, value: object, unit: str) -> float:
-    """Return a float above zero that can be computed with, or raise a ValueError that
-    names the parameter."""
+    """Return a float between `SMALLEST` and `LARGEST`, or raise a ValueError that names
+    the parameter."""
     result = number(name, value, unit)
     if not SMALLEST <= result <= LARGEST:
         limits = "above 0" if result <= 0 else f"between {SMALLEST:g} and {LARGEST:g}"
@@ -91,7 +93,7 @@ def positive(name: str, value: object, unit: str) -> float:
 
 
 def not_negative(name: str, value: object, unit: str) -> float:
-    """Return a float of zero or more, or raise a ValueError that names the
+    """Return a float from 0 to `LARGEST`, or raise a ValueError that names the
     parameter."""
     result = number(name, value, unit)
     if not 0 <= result <= LARGEST:
@@ -115,14 +117,14 @@ def whole(name: str, value: object, at_most: float = math.inf) -> int:
 
 
 def checked_span(duration: object, until: object) -> float:
-    """Return the duration [s] of a run, or raise a ValueError about it or about
-    `until`."""
+    """Return the duration [s] of a run, or raise a ValueError; `until` is checked,
+    too."""
     checked_until(until)
     return positive("duration", duration, "s")
 
 
 def checked_until(until: Any) -> Any:
-    """Return where a run may end before its duration, or raise a ValueError."""
+    """Return `until` if it is None or "global slip", or raise a ValueError."""
     if until not in (None, "global slip"):
         raise ValueError(f'until must be None or "global slip", but is {until!r}')
     return until

@@ -1,26 +1,27 @@
-"""Shares of the normal load of a slider from a measured profile."""
+"""Distribute the normal load of a slider over its blocks by a measured profile."""
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from precursors.model.checks import block_array
 
-# A position that was converted may be this share beyond the end of the slider.
+# Conversion of units may move a position beyond the end of the slider by this share.
 ROUNDING = 1e-12
 
 
 def shares_of_profile(
     profile: ArrayLike, n_blocks: int, positions: ArrayLike | None, length: float
 ) -> NDArray[np.float64]:
-    """Share of the normal load that each block of a slider bears, shape (N,).
+    """Return the share of the normal load that each block bears, shape (N,).
 
-    `profile` and `positions` [m] are those of `Chain.from_profile`; the slider has a
-    `length` [m].
+    `profile` and `positions` [m] are those of `Chain.from_profile`, and `length` [m] is
+    that of the slider.
 
     Raises
     ------
     ValueError
-        If the profile is below 0 or all 0, or positions do not rise on the slider.
+        If the profile is negative somewhere or zero everywhere, or if positions do not
+        rise or are not on the slider.
     """
     cells = block_array("profile", profile, "any unit")
     if cells.ndim not in (1, 2) or not (
@@ -45,8 +46,10 @@ def shares_of_profile(
 def _integral(
     positions: ArrayLike, profile: NDArray[np.float64], edges: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Integral of the straight lines between the points of a profile, from 0 to each
-    edge [m]; outside the points it has the end values."""
+    """Integrate a profile from 0 to each edge [m].
+
+    The profile is linear between its points and constant beyond the first and the last.
+    """
     x = block_array("positions", positions, "m")
     if x.shape != profile.shape or len(x) < 2 or not (np.diff(x) > 0).all():
         raise ValueError(

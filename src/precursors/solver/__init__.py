@@ -1,1 +1,1 @@
-"""From a chain to its run: every transition, exact to rounding."""
+"""Solver: simulate a chain and return its run, exact to rounding."""

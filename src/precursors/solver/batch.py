@@ -1,4 +1,4 @@
-"""Chains of equal length through the compiled kernel, and what it recorded as runs."""
+"""Run chains of equal length in the compiled kernel, and turn its records into runs."""
 
 import threading
 from collections.abc import Iterator, Sequence
@@ -13,17 +13,17 @@ from precursors.solver.record import COLUMNS, TRANSITION, States
 from precursors.solver.run import Record, Run
 from precursors.support.waiting import bar
 
-# Stored states are thinned out so that they never take more room than this.
+# Stored states are thinned so that they take no more memory than this.
 STATES_BYTES = 64 * 2**20
-# The kernel returns after so many windows, so that Ctrl-C is heard within about a
+# The kernel returns after this many windows, so that Ctrl-C takes effect within about a
 # second.
 WINDOWS_PER_CALL = 500_000
-# Transitions that a thread's record has room for.
+# Capacity of a thread's record, in transitions.
 SHARED_ROOM = 8192
 
 
 class TransitionLimitError(RuntimeError):
-    """A run met its cap on transitions or on work; `run` holds what was computed up to
+    """A run met its limit of transitions or of work; `run` is its motion up to
     there."""
 
     def __init__(self, message: str, run: Record) -> None:
@@ -32,16 +32,19 @@ class TransitionLimitError(RuntimeError):
 
 
 class _Room(threading.local):
-    """Room of a thread, kept from call to call, for what the kernel writes of chains of
-    one length: rows of transitions, and states every `stride` transitions."""
+    """Arrays of a thread, reused from call to call, into which the kernel writes.
+
+    For chains of one length they hold rows of transitions, and states every `stride`
+    transitions.
+    """
 
     n_blocks = 0
 
     def fit(self, n_blocks: int) -> None:
-        """Make it anew for chains of another length."""
+        """Allocate the arrays again if the chains have another length."""
         if n_blocks == self.n_blocks:
             return
-        # Storing takes little time beside finding so many transitions.
+        # With this stride, storing takes little time compared with the transitions.
         self.stride = max(10, 1 + n_blocks // 3)
         self.memory = kernel.memory_for(n_blocks)
         self.record = np.zeros((max(SHARED_ROOM, 2 * n_blocks), kernel.ROW))
@@ -60,9 +63,10 @@ def run_batch(
     end: kernel.End,
 ) -> Iterator[Run]:
     """Run chains of equal length one after the other, in as few calls of the kernel as
-    it takes.
+    possible.
 
-    A thread has one room: it must take all runs before it begins others.
+    All calls in a thread share its arrays: exhaust one iterator before starting
+    another.
     """
     _room.fit(chains[0].n_blocks)
     batch = kernel.Batch(
@@ -76,7 +80,7 @@ def run_batch(
     record = _room.record
     states = _room.states
     first = 0
-    told: Any = None  # it takes a quarter of a short run's time
+    display: Any = None  # made late, as it takes a quarter of a short run's time
     try:
         while True:
             arrays = (progress, record, states, _room.memory)
@@ -88,18 +92,18 @@ def run_batch(
             first = n_finished
             if first == len(chains):
                 return
-            if progress["stored"][first] == 0:  # it has not begun
+            if progress["stored"][first] == 0:  # not started yet
                 record = _room.record
                 states = _room.states
             else:
                 record = _longer_record(record[rows:], progress[first])
                 states = _longer_states(states[stored:], progress[first])
-            if told is None:
-                told = bar("running", end.duration)
-            told.update(progress["onset"].mean() - told.n)
+            if display is None:
+                display = bar("running", end.duration)
+            display.update(progress["onset"].mean() - display.n)
     finally:
-        if told is not None:
-            told.close()
+        if display is not None:
+            display.close()
 
 
 def _runs(
@@ -111,8 +115,13 @@ def _runs(
     states: FloatArray,
     end: kernel.End,
 ) -> Iterator[Run]:
-    """Runs of a batch that were recorded one after the other; an error if one met a
-    cap."""
+    """Yield the runs of a batch, which were recorded one after the other.
+
+    Raises
+    ------
+    TransitionLimitError
+        If one met a limit.
+    """
     transitions = np.empty(len(record), TRANSITION)
     for name, column in zip(COLUMNS, record.T, strict=False):
         transitions[name] = column
@@ -136,7 +145,7 @@ def _runs(
         )
         if status == kernel.PAUSED:
             raise _unfinished(run, end)
-        if kernel.is_compiled_now():
+        if kernel.should_compile_evaluation():
             run.at(0.0)
         yield run
         row = end_row + 1
@@ -144,7 +153,7 @@ def _runs(
 
 
 def _unfinished(run: Run, end: kernel.End) -> TransitionLimitError:
-    """The error of a run that met a cap before its end."""
+    """Return the error of a run that met a limit before its end."""
     where = f"at t = {run.duration:.9g} s of {end.duration:g} s"
     if len(run.transitions) >= end.most:
         return TransitionLimitError(
@@ -159,15 +168,15 @@ def _unfinished(run: Run, end: kernel.End) -> TransitionLimitError:
 
 
 def _longer_record(record: FloatArray, run: np.void) -> FloatArray:
-    """The record of a run, longer if it is full."""
+    """Return the record of a run, doubled if it is full."""
     is_full = run["transitions"] + 1 == len(record)
     return np.resize(record, (2 * len(record), kernel.ROW)) if is_full else record
 
 
 def _longer_states(states: FloatArray, run: np.void) -> FloatArray:
-    """Stored states of a run, longer if they are full.
+    """Return the stored states of a run, doubled if they are full.
 
-    Every second one is dropped where they would take more than `STATES_BYTES`.
+    Every second one is dropped if they would take more than `STATES_BYTES`.
     """
     rows = len(states)
     if run["stored"] < rows:

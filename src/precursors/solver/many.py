@@ -19,8 +19,8 @@ from precursors.solver.simulate import (
 from precursors.support.compiled import untyped
 from precursors.support.waiting import in_threads
 
-# Chains of a batch: many for little work between batches, few for all threads to end
-# together.
+# Chains of a batch: many reduce the work between batches, few let all threads end at
+# about the same time.
 LARGEST_BATCH = 64
 BATCHES_PER_THREAD = 8
 MOST_THREADS = 1024
@@ -34,26 +34,30 @@ def simulate_many(
     start_positions: Sequence[ArrayLike] | None = None,
     start_velocities: Sequence[ArrayLike] | None = None,
 ) -> list[Run]:
-    """Run an ensemble on all cores; every run equals that of `simulate`, bit for bit.
+    """Run an ensemble on all cores. Every run equals that of `simulate` bit for bit.
 
     Parameters
     ----------
     chains : iterable of Chain
-        The chains, of any lengths.
+        The chains, which may have different numbers of blocks.
     duration, until
         As in `simulate`, for all of them.
     threads : int, optional
-        Threads to use, at most 1024; by default as many as Numba takes, one for each
-        core of this process.
+        Number of threads, at most 1024; by default Numba's, which is one per core of
+        this process.
     start_positions, start_velocities : sequence of array_like, optional
         One start for each chain, as in `simulate`.
 
     Returns
     -------
     list of Run
-        In the order of `chains`. How much is done is told at a terminal; after Ctrl-C
-        nothing goes on. `TransitionLimitError` if one of them meets the cap of
-        `simulate`.
+        The runs in the order of `chains`. A terminal shows the progress; Ctrl-C stops
+        all runs.
+
+    Raises
+    ------
+    TransitionLimitError
+        If one of them meets a limit of `simulate`.
     """
     if isinstance(chains, Chain):
         raise TypeError(
@@ -72,13 +76,13 @@ def simulate_many(
     runs: dict[int, Run] = {}
 
     def run(batch: list[int]) -> None:
-        made = run_batch(
+        batch_runs = run_batch(
             [chains[j] for j in batch],
             np.array([positions[j] for j in batch]),
             np.array([velocities[j] for j in batch]),
             end,
         )
-        runs.update(zip(batch, made, strict=True))
+        runs.update(zip(batch, batch_runs, strict=True))
 
     tasks = [partial(run, batch) for batch in _batches(chains, threads)]
     in_threads(tasks, threads)
@@ -103,12 +107,11 @@ def _starts(
 
 
 def _batches(chains: Sequence[Chain], threads: int) -> Iterator[list[int]]:
-    """Numbers of chains of equal length, so many at a time as one call of the kernel
-    takes."""
+    """Yield the indices of chains of equal length, one batch at a time."""
     most = min(LARGEST_BATCH, max(1, len(chains) // (threads * BATCHES_PER_THREAD)))
-    alike: dict[int, list[int]] = {}
+    by_length: dict[int, list[int]] = {}
     for j, chain in enumerate(chains):
-        alike.setdefault(chain.n_blocks, []).append(j)
-    for _, members in sorted(alike.items(), reverse=True):
+        by_length.setdefault(chain.n_blocks, []).append(j)
+    for _, members in sorted(by_length.items(), reverse=True):
         for first in range(0, len(members), most):
             yield members[first : first + most]

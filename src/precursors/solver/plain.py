@@ -1,5 +1,7 @@
-"""The method of the compiled kernel in plain Python: from transition to transition by
-the earliest root.
+"""The method of the solver in plain Python; the compiled kernel computes the same.
+
+The solver goes from transition to transition, each of which is the earliest root of all
+event functions.
 
 Between two transitions the chain is linear: friction is constant, and the load grows
 linearly in time. With the force T_i in the spring behind each block, its stiffness c_i
@@ -8,19 +10,20 @@ linearly in time. With the force T_i in the spring behind each block, its stiffn
     dT_i/dt = c_i (v_{i-1} - v_i),
     m dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i    where block i slides.
 
-1. In a short window, Taylor series of `ORDER` terms have all digits. Blocks far ahead
-  of the front need none.
-2. Event functions are the velocity of a block that slides, and the margins mu_s w_i -+
-  (T_i - T_{i+1}) of a block that sticks. The earliest root of all of them is the next
+1. In a short window, Taylor series of `ORDER` terms are exact to rounding. Blocks far
+  ahead of the front need no series.
+2. The event function of a sliding block is its velocity. A sticking block has two: its
+  margins mu_s w_i -+ (T_i - T_{i+1}). The earliest root of all of them is the next
   transition.
-3. With |g''| <= M, the positive root of g + g' s - M s^2/2 is a safe step: no root of g
+3. If |g''| <= M, the positive root of g + g' s - M s^2/2 is a safe step: no root of g
   lies before it. Such steps converge to the first root, or prove that the window has
   none.
-4. A block that stops sticks if |T_i - T_{i+1}| <= mu_s w_i, and otherwise follows that
-  force. A block that lets go slides in the direction of the force.
-5. Where all blocks stick, only T_1 grows, by K V in a second, until block 1 lets go.
-6. A block without load has no friction and no transitions: once pushed, it moves for
-  ever. An event is over where all others stick.
+4. A block that stops sticks if |T_i - T_{i+1}| <= mu_s w_i, and otherwise slides in the
+  direction of that force. A block that is released slides in the direction of the
+  force.
+5. While all blocks stick, only T_1 grows, at the rate K V, until block 1 is released.
+6. A block without load has no friction and no transitions: once pushed, it moves
+  forever. An event is over when all other blocks stick.
 """
 
 import math
@@ -32,12 +35,12 @@ from numpy.typing import NDArray
 from precursors.model.chain import FREE, Chain
 
 Floats = NDArray[np.floating]
-REAL = np.longdouble  # more digits, where the machine has them
+REAL = np.longdouble  # has more digits than a double on some machines
 ORDER = 24
-WINDOW = 1.375  # longest window times largest frequency: WINDOW^ORDER / ORDER! is 3e-21
-ROUNDINGS = 8 * float(
-    np.finfo(float).eps
-)  # a value below so many roundings of its terms counts as zero
+# Longest window times largest frequency: WINDOW^ORDER / ORDER! is 3e-21.
+WINDOW = 1.375
+# A value below this share of the sum of its terms counts as zero.
+ROUNDINGS = 8 * float(np.finfo(float).eps)
 N = np.arange(ORDER + 1, dtype=REAL)
 BINOMIAL = np.array(
     [[math.comb(n, k) for n in range(ORDER + 1)] for k in range(ORDER + 1)], dtype=REAL
@@ -46,10 +49,10 @@ EXPONENT = np.maximum(N[None, :] - N[:, None], 0)
 
 
 class Switching(NamedTuple):
-    """When a block that stops sticks, and whether blocks can slide backward.
+    """Rules of the transitions.
 
-    A block sticks where |F| <= `sticks_within` [N], shape (N,); the model's is mu_s w
-    (Eq. 5).
+    A block that stops sticks if |F| <= `sticks_within` [N], shape (N,), which is mu_s w
+    in the model (Eq. 5). `backward` is whether blocks can slide backward.
     """
 
     sticks_within: Floats
@@ -57,8 +60,10 @@ class Switching(NamedTuple):
 
 
 class State(NamedTuple):
-    """Velocities [m/s], spring forces [N] and modes; column 0 is the drive, N + 1 the
-    free end."""
+    """Velocities [m/s], spring forces [N] and modes, each of shape (N + 2,).
+
+    Column 0 is the drive, and column N + 1 the free end.
+    """
 
     velocity: Floats
     force: Floats
@@ -66,8 +71,10 @@ class State(NamedTuple):
 
 
 def at_start(chain: Chain, positions: Floats, velocities: Floats) -> State:
-    """State at time 0: a block slides if it moves, or if its springs overcome the
-    static friction (Eq. 5)."""
+    """Return the state at time 0.
+
+    A block slides if it moves, or if its springs overcome the static friction (Eq. 5).
+    """
     force = np.pad(-chain.springs * np.diff(positions, prepend=0.0), 1).astype(REAL)
     net = force[1:-1] - force[2:]
     rounding = ROUNDINGS * (
@@ -84,8 +91,10 @@ def at_start(chain: Chain, positions: Floats, velocities: Floats) -> State:
 
 
 def is_at_rest(state: State) -> bool:
-    """Whether nothing moves but the drive: all blocks stick, or bear no load and were
-    never pushed."""
+    """Whether nothing moves but the drive.
+
+    Then all blocks stick, apart from those without load that were never pushed.
+    """
     moved = (state.velocity[1:-1] != 0.0) | (np.diff(state.force[1:]) != 0.0)
     moved[0] = True
     mode = state.mode[1:-1]
@@ -93,8 +102,10 @@ def is_at_rest(state: State) -> bool:
 
 
 def expand(chain: Chain, state: State, window: float) -> tuple[Floats, Floats]:
-    """Taylor series of velocities and spring forces, row n times s^n, with s = 1 at the
-    end of the window."""
+    """Return the Taylor series of velocities and spring forces.
+
+    Row n is the coefficient of s^n, where s = 1 at the end of the window.
+    """
     v, force = np.zeros((2, ORDER + 1, chain.n_blocks + 2), dtype=REAL)
     v[0] = state.velocity
     force[0] = state.force
@@ -116,7 +127,7 @@ def expand(chain: Chain, state: State, window: float) -> tuple[Floats, Floats]:
 
 
 def move(state: State, v: Floats, force: Floats, s: float) -> State:
-    """The state at s, summed from the smallest term on."""
+    """Return the state at s. The smallest terms are summed first."""
     terms = s ** N[:, None]
     return State(
         (v * terms)[::-1].sum(axis=0), (force * terms)[::-1].sum(axis=0), state.mode
@@ -124,33 +135,37 @@ def move(state: State, v: Floats, force: Floats, s: float) -> State:
 
 
 def safe_step(g: float, slope: float, curvature: float) -> float:
-    """Positive root of g + slope s - curvature s^2/2 for g >= 0: no root of g lies
-    before it."""
+    """Return the positive root of g + slope s - curvature s^2/2 for g >= 0.
+
+    No root of a function with this value and slope, and |g''| <= curvature, lies before
+    it.
+    """
     root = math.sqrt(slope * slope + 2.0 * curvature * g)
     rising = (slope + root) / curvature if curvature else math.inf
     return 2.0 * g / (root - slope) if slope < 0.0 else rising
 
 
 def first_root(series: Floats, zero: float, limit: float) -> float:
-    """First root of a polynomial in 0 <= s < limit <= 1, or infinity; a value up to
-    `zero` is zero."""
+    """Return the first root of a polynomial in 0 <= s < limit <= 1, or infinity.
+
+    A value up to `zero` counts as zero.
+    """
     resolved = np.flatnonzero(abs(series) > zero)
     if resolved.size == 0:
         return math.inf
-    # A root at the start belongs to the last transition: divide it out. If g then
-    # falls, the next is at once.
+    # A root at the start belongs to the last transition: divide it out. If g still
+    # falls, there is another one at the start.
     c = np.append(series[resolved[0] :], np.zeros(resolved[0]))
     s = 0.0
     left = 1.0
     while c[0] + np.minimum(c[1:], 0.0).sum() <= 0.0:
         step = safe_step(max(c[0], 0.0), c[1], float((N * (N - 1.0)) @ abs(c)))
-        if (
-            c[0] <= zero or left * step <= 1e-17
-        ):  # the root, but for a last step of Newton
+        if c[0] <= zero or left * step <= 1e-17:
+            # The root is reached, apart from a last step of Newton's method.
             return s + left * max(-c[0] / c[1], 0.0) if c[1] < 0.0 else s
         if s + left * step >= limit:
             return math.inf
-        # The series about the new place, on what is left of the window.
+        # Expand about the new place, and scale to the rest of the window.
         c = (BINOMIAL * step**EXPONENT) @ c * (1.0 - step) ** N
         s = s + left * step
         left = left * (1.0 - step)
@@ -160,8 +175,11 @@ def first_root(series: Floats, zero: float, limit: float) -> float:
 def next_transition(
     chain: Chain, switching: Switching, state: State, window: float, eps: float
 ) -> tuple[float, int, int, State]:
-    """(s, block, new mode) of the first transition in the window, and the state at s;
-    (1, 0, 0) if none."""
+    """Return (s, block, new mode) of the first transition in the window, and the state
+    at s.
+
+    Without a transition they are (1, 0, 0).
+    """
     v, force = expand(chain, state, window)
     net = force[:, 1:-1] - force[:, 2:]
     sliding = state.mode[1:-1]
@@ -205,8 +223,11 @@ def find_transitions(
     most: int,
     switching: Switching | None = None,
 ) -> tuple[list[tuple[float, float, int, int, float]], float]:
-    """Transitions (time, time since the last, block, mode, load), and the time of the
-    end; by default the model's switching."""
+    """Return transitions (time, time since the last, block, mode, load), and the time
+    of the end.
+
+    The default of `switching` is the model's.
+    """
     switching = switching or Switching(chain.strength)
     rows = [
         (0.0, 0.0, int(i), int(state.mode[i]), state.force[1])

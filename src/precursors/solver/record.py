@@ -1,5 +1,4 @@
-"""Types of a record: transitions, the states stored between them, and what all of its
-arrays must be."""
+"""The arrays of a record: transitions, stored states, and checks of them."""
 
 from __future__ import annotations
 
@@ -20,10 +19,10 @@ COLUMNS = list(TRANSITION.names or ())
 
 
 class States(NamedTuple):
-    """Stored states, a row each; row 0 is the start, before any transition.
+    """Stored states, one per row; row 0 is the start, before any transition.
 
-    Spring forces [N], velocities [m/s] and modes, each (S, N); the number of
-    transitions before, and the time since the last of them [s].
+    `force` [N], `velocity` [m/s] and `mode` have shape (S, N). `after` is the number of
+    transitions before the state, and `offset` the time since the last of them [s].
     """
 
     force: FloatArray
@@ -34,7 +33,7 @@ class States(NamedTuple):
 
     @classmethod
     def from_rows(cls, rows: FloatArray) -> States:
-        """States from rows of `after`, `offset`, N forces, N velocities and N modes."""
+        """Split rows of `after`, `offset`, N forces, N velocities and N modes."""
         n = (rows.shape[1] - 2) // 3
         return cls(
             force=rows[:, 2 : 2 + n].copy(),
@@ -46,8 +45,8 @@ class States(NamedTuple):
 
 
 class Dataset(NamedTuple):
-    """What an array of a record must be: its unit, type, and shape, in which equal
-    names stand for equal lengths."""
+    """Unit, type and shape of an array of a record; equal names in shapes stand for
+    equal lengths."""
 
     unit: str
     type: str
@@ -73,7 +72,7 @@ DATASETS = {
 
 
 def arrays_of(record: Any) -> dict[str, NDArray[Any]]:
-    """The arrays of a record, or of a run, and of its chain, by their names in
+    """Return the arrays of a record or run and of its chain, by their names in
     `DATASETS`."""
     arrays = {"weights": record.chain.weights, "intervals": record.intervals}
     arrays |= {f"transitions/{name}": record.transitions[name] for name in COLUMNS}
@@ -85,9 +84,12 @@ def arrays_of(record: Any) -> dict[str, NDArray[Any]]:
     return arrays
 
 
-def wrong_shape(arrays: Mapping[str, Any]) -> str:
-    """Say which array, in memory or in a file, is of another type, or has a shape that
-    does not fit the others, or nothing."""
+def find_shape_error(arrays: Mapping[str, Any]) -> str:
+    """Describe the first array that has a wrong type, or a shape that does not fit the
+    others; return "" if there is none.
+
+    The arrays may be in memory or in a file.
+    """
     lengths: dict[str, int] = {}
     for name, array in arrays.items():
         dataset = DATASETS[name]
@@ -106,9 +108,12 @@ def wrong_shape(arrays: Mapping[str, Any]) -> str:
     return ""
 
 
-def out_of_range(arrays: Mapping[str, NDArray[Any]]) -> str:
-    """Say which block, mode, interval or stored state cannot be, or nothing; the shapes
-    are right."""
+def find_range_error(arrays: Mapping[str, NDArray[Any]]) -> str:
+    """Describe the first impossible block, mode, interval or stored state; return "" if
+    there is none.
+
+    The arrays must have the right shapes.
+    """
     intervals = arrays["intervals"]
     if not np.all((intervals >= 0) & np.isfinite(intervals)):
         return "an interval is negative or not finite"

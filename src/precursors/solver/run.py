@@ -1,4 +1,4 @@
-"""A record of a chain's transitions, and a run, which has exact states as well."""
+"""A record has the transitions of a chain; a run also has its exact states."""
 
 from __future__ import annotations
 
@@ -29,9 +29,8 @@ class Record:
         time [s], block (1..N), mode (+1 slides forward, 0 sticks, -1 slides backward),
         tangential_load [N].
     intervals : array, shape (n_transitions + 1,)
-        Time [s] from the start to the first transition, between transitions, and from
-        the last one to the end; it resolves what a difference of two absolute times
-        cannot.
+        Times [s] from the start to the first transition, between transitions, and from
+        the last one to the end. They are more accurate than differences of `time`.
     """
 
     chain: Chain
@@ -59,8 +58,8 @@ class Record:
     ) -> Self:
         """Make a record from columns of its transitions.
 
-        `intervals` are by default differences of `time`, whose rounding grows with the
-        time; `others` are further attributes of the class.
+        By default, `intervals` are differences of `time`, whose rounding errors grow
+        with time. `others` are further attributes of the class.
         """
         transitions = np.empty(np.size(time), dtype=TRANSITION)
         columns = (time, block, mode, tangential_load)
@@ -85,15 +84,20 @@ class Record:
         )
 
     def save(self, path: AnyPath) -> None:
-        """Write an HDF5 file, whole or not at all; a missing directory is made."""
+        """Write an HDF5 file completely or not at all; a missing directory is made."""
         write_record(self, path)
 
     @classmethod
     def load(cls, path: AnyPath) -> Self:
-        """Read a file that `save` wrote; any other file is a `RunFileError`.
+        """Read a file that `save` wrote.
 
-        `Record.load` reads every kind of record; `Run.load` refuses one that has no
+        `Record.load` reads records and runs; `Run.load` refuses a record without
         states.
+
+        Raises
+        ------
+        RunFileError
+            If it is another kind of file, or damaged.
         """
         content = read_record(path)
         kind: type[Record] = Run if "states" in content else Record
@@ -109,17 +113,17 @@ class Record:
 class Run(Record):
     """The motion of a chain from time 0 to `duration`, known exactly at every time.
 
-    Beside the attributes of a `Record` it has
+    It has the attributes of a `Record`, and these:
 
     Attributes
     ----------
     start_positions, start_velocities : array, shape (N,)
         State at time 0 [m], [m/s].
     states : States
-        Stored states from which `at` starts.
+        Stored states from which `at` computes others.
     evaluations : float
-        Evaluations of the forces of the whole chain that the solver made, each
-        derivative counted as one.
+        Number of evaluations of the forces on the whole chain by the solver; each
+        derivative counts as one.
     """
 
     start_positions: FloatArray
@@ -128,8 +132,8 @@ class Run(Record):
     evaluations: float
 
     def at(self, times: ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """Positions [m] and velocities [m/s], each (len(times), N), exact to
-        rounding."""
+        """Return positions [m] and velocities [m/s], each of shape (len(times), N),
+        exact to rounding."""
         when = self._times(times)
         force, velocity = self.forces_and_velocities(when)
         # x_1 = V t - T_1/K (Eq. 3), x_2 = x_1 - T_2/k, ...
@@ -137,25 +141,29 @@ class Run(Record):
         return self.chain.drive_velocity * when[:, None] - behind, velocity
 
     def tangential_load(self, times: ArrayLike) -> FloatArray:
-        """Tangential load F_X = K(V t - x_1) [N], shape (len(times),) (Eq. 3)."""
+        """Return the tangential load F_X = K(V t - x_1) [N], shape (len(times),) (Eq.
+        3)."""
         return self.forces_and_velocities(times, 1)[0][:, 0]
 
     def spring_forces(self, times: ArrayLike) -> FloatArray:
-        """Force in the spring behind each block [N], shape (len(times), N); column 0 is
-        F_X."""
+        """Return the force in the spring behind each block [N], shape (len(times), N);
+        column 0 is F_X."""
         return self.forces_and_velocities(times)[0]
 
     def forces_and_velocities(
         self, times: ArrayLike, n_blocks: int | None = None
     ) -> FloatArray:
-        """Spring forces [N] and velocities [m/s] of the first blocks, by default of
-        all, shape (2, len(times), n_blocks): the state, apart from the drive's."""
+        """Return spring forces [N] and velocities [m/s], shape (2, len(times),
+        n_blocks).
+
+        They are those of the first `n_blocks` blocks, by default of all.
+        """
         # Imported here: reading a run must not load Numba.
         from precursors.solver import kernel
 
         when = self._times(times)
         order = np.argsort(when, kind="stable")
-        found = kernel.evaluate(
+        states = kernel.evaluate(
             self.chain,
             when[order],
             self.transitions,
@@ -163,7 +171,7 @@ class Run(Record):
             self.states,
             n_blocks or self.chain.n_blocks,
         )
-        return found[:, np.argsort(order)]
+        return states[:, np.argsort(order)]
 
     def _times(self, times: ArrayLike) -> FloatArray:
         when = np.atleast_1d(number_array("times", times, "s"))

@@ -1,4 +1,4 @@
-"""The HDF5 file of a record or run, which is checked whole when it is read."""
+"""Write and read the HDF5 file of a record or run; reading checks all of it."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from precursors.solver.record import (
     DATASETS,
     States,
     arrays_of,
-    out_of_range,
-    wrong_shape,
+    find_range_error,
+    find_shape_error,
 )
 from precursors.support.files import AnyPath, write_whole
 
@@ -30,22 +30,22 @@ if TYPE_CHECKING:
     from precursors.solver.run import Record
 
 FORMAT = "precursors run 7"
-WITHOUT_CHECKSUM = "precursors run 6"  # else the same
+WITHOUT_CHECKSUM = "precursors run 6"  # the same format without a checksum
 TEXTS = ["format", "precursors", "numpy", "duration_unit"]
-LAST_LARGER = "88883c9"  # the last commit with friction that falls, and viscosity
+LAST_LARGER = "88883c9"  # the last commit with weakening friction and viscosity
 SCALARS = ARGUMENTS[1:]
 GROUPS = ("transitions", "states")
-# Bytes of an array over those that the file has of it: gzip makes at most 1032 of one.
+# Largest ratio of an array's bytes to its bytes in the file; gzip reaches at most 1032.
 MOST_COMPRESSED = 1100
 
 
 class RunFileError(ValueError):
-    """A file that is not a whole run of this format."""
+    """A file that is not a complete run of this format."""
 
 
 def write_record(record: Record, path: AnyPath) -> None:
-    """Write a record or run to an HDF5 file, whole or not at all."""
-    import h5py  # slow, and needed for files only
+    """Write a record or run to an HDF5 file, completely or not at all."""
+    import h5py  # imported lazily: it is slow, and only files need it
 
     attributes: dict[str, Any] = {
         "format": FORMAT,
@@ -55,8 +55,8 @@ def write_record(record: Record, path: AnyPath) -> None:
         **{name: getattr(record.chain, name) for name in [*SCALARS, "theta"]},
         **{name: x for name, x in vars(record).items() if isinstance(x, Real)},
     }
-    # Of a fixed length: HDF5 has checksums for all but the texts that have none, and
-    # may hang in these.
+    # Texts have a fixed length. HDF5 has no checksum for others, and may hang if they
+    # are damaged.
     attributes = {
         name: np.bytes_(value.encode()) if isinstance(value, str) else value
         for name, value in attributes.items()
@@ -64,7 +64,7 @@ def write_record(record: Record, path: AnyPath) -> None:
     arrays = arrays_of(record)
     attributes["checksum"] = checksum(attributes, arrays)
 
-    # HDF5 may end the interpreter when the disk is full, so the file is made in memory
+    # A full disk can make HDF5 end the interpreter, so the file is made in memory
     # first.
     memory = BytesIO()
     with h5py.File(memory, "w", libver="v110") as file:
@@ -78,7 +78,7 @@ def write_record(record: Record, path: AnyPath) -> None:
 
 
 def checksum(attributes: Mapping[str, Any], arrays: Mapping[str, Any]) -> np.bytes_:
-    """SHA-256 of the names, types, shapes and values of all that a file holds."""
+    """Return the SHA-256 of the names, types, shapes and values of a file's content."""
     digest = hashlib.sha256()
     for name, values in sorted({**attributes, **arrays}.items()):
         array = np.asarray(values)
@@ -88,7 +88,7 @@ def checksum(attributes: Mapping[str, Any], arrays: Mapping[str, Any]) -> np.byt
 
 
 def has_checksum(path: AnyPath) -> bool:
-    """Whether a run file has one; those of the first releases have none."""
+    """Whether a run file has a checksum; those of the first releases have none."""
     import h5py
 
     with h5py.File(BytesIO(Path(path).read_bytes()), "r") as file:
@@ -96,15 +96,22 @@ def has_checksum(path: AnyPath) -> bool:
 
 
 def read_record(path: AnyPath) -> dict[str, Any]:
-    """Read what `Record.from_columns` takes; `RunFileError` says why a file has
-    none."""
+    """Read the arguments of `Record.from_columns` from a file.
+
+    Raises
+    ------
+    FileNotFoundError
+        If there is no such file.
+    RunFileError
+        If it is another kind of file, or damaged.
+    """
     import h5py
 
     if not Path(path).is_file():
         raise FileNotFoundError(
             f"{path} is not a file" if Path(path).exists() else f"{path}: no such file"
         )
-    # HDF5 asks for locks, which a file system may not have.
+    # Read first: HDF5 needs file locks, which some file systems lack.
     memory = BytesIO(Path(path).read_bytes())
     try:
         with h5py.File(memory, "r") as file:
@@ -116,7 +123,7 @@ def read_record(path: AnyPath) -> dict[str, Any]:
             return _content(file)
     except RunFileError:
         raise
-    except Exception as error:  # nearly any, as the file may hold anything
+    except Exception as error:  # any error, as the file may have any content
         reason = " ".join(str(error).split()).strip("'\"")
         raise RunFileError(
             f"{path} is not a run file, or is damaged: {reason}"
@@ -124,7 +131,7 @@ def read_record(path: AnyPath) -> dict[str, Any]:
 
 
 def _content(file: h5py.File) -> dict[str, Any]:
-    """Columns and further attributes of the record in a file."""
+    """Return the columns and further attributes of the record in a file."""
     attributes = _attributes(file)
     form = bytes(attributes.get("format", b"")).decode()
     if form not in (FORMAT, WITHOUT_CHECKSUM):
@@ -139,19 +146,19 @@ def _content(file: h5py.File) -> dict[str, Any]:
         wanted.append("checksum")
     _check_names("dataset", stored, datasets)
     _check_names("attribute", attributes, wanted)
-    if reason := wrong_shape(stored):
+    if reason := find_shape_error(stored):
         raise ValueError(reason)
 
     arrays = {name: stored[name][()] for name in datasets}
-    told = attributes.pop("checksum", None)
-    if told is not None and told != checksum(attributes, arrays):
+    expected = attributes.pop("checksum", None)
+    if expected is not None and expected != checksum(attributes, arrays):
         raise ValueError("its content is not that of its checksum")
-    if reason := out_of_range(arrays):
+    if reason := find_range_error(arrays):
         raise ValueError(reason)
     scalars = {name: attributes[name] for name in SCALARS}
     chain = Chain(weights=arrays.pop("weights"), **scalars)
     theta = attributes["theta"]
-    if theta == theta:  # else it is NaN, not known
+    if theta == theta:  # NaN: unknown
         remember_theta(chain, theta)
     content: dict[str, Any] = {"chain": chain}
     content["duration"] = not_negative("duration", attributes["duration"], "s")
@@ -165,7 +172,7 @@ def _content(file: h5py.File) -> dict[str, Any]:
 
 
 def _attributes(of: h5py.HLObject) -> dict[str, Any]:
-    """Numbers and texts of fixed length; nothing else is read."""
+    """Return attributes, which must be numbers or texts of fixed length."""
     for name in of.attrs:
         stored = of.attrs.get_id(name)
         if stored.shape != () or stored.dtype.kind not in "Siuf":
@@ -174,10 +181,10 @@ def _attributes(of: h5py.HLObject) -> dict[str, Any]:
 
 
 def _datasets(group: h5py.Group, path: str = "") -> dict[str, h5py.Dataset]:
-    """Datasets of the file itself by name, none of which is read."""
+    """Return the datasets of the file by name, without reading them."""
     import h5py
 
-    found: dict[str, h5py.Dataset] = {}
+    datasets: dict[str, h5py.Dataset] = {}
     for key in group:
         name = path + key
         if not isinstance(group.get(key, getlink=True), h5py.HardLink):
@@ -185,7 +192,7 @@ def _datasets(group: h5py.Group, path: str = "") -> dict[str, h5py.Dataset]:
         item = group[key]
         attributes = {}
         if name in GROUPS and isinstance(item, h5py.Group):
-            found |= _datasets(item, f"{name}/")
+            datasets |= _datasets(item, f"{name}/")
         elif name not in DATASETS or not isinstance(item, h5py.Dataset):
             raise ValueError(f"{name} is not a dataset of a run")
         elif item.is_virtual or item.external:
@@ -194,14 +201,14 @@ def _datasets(group: h5py.Group, path: str = "") -> dict[str, h5py.Dataset]:
             raise ValueError(f"{name} is not stored whole")
         else:
             attributes = {"unit": DATASETS[name].unit.encode()}
-            found[name] = item
+            datasets[name] = item
         if _attributes(item) != attributes:
             raise ValueError(f"the attributes of {name} are not {attributes}")
-    return found
+    return datasets
 
 
 def _check_names(kind: str, given: Iterable[str], wanted: Iterable[str]) -> None:
-    """Refuse names that are missing or not known."""
+    """Refuse names that are missing or unknown."""
     for name in sorted(set(given) ^ set(wanted)):
         what = "missing" if name in wanted else "not one of a run"
         raise ValueError(f"its {kind} {name} is {what}")

@@ -1,4 +1,4 @@
-"""Simulate chains exactly: every transition between stick and slip, to rounding."""
+"""Simulate a chain exactly: every transition between stick and slip, to rounding."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ from precursors.solver.run import Run
 __all__ = ["MAX_TRANSITIONS", "TransitionLimitError", "simulate"]
 
 MAX_TRANSITIONS = 10_000_000
-# Chains of more blocks have long fronts, with which a transition takes ten times as long.
+# Chains of more blocks have long fronts, so a transition takes ten times as long.
 MANY_BLOCKS = 500
-# Blocks that slide without end would keep the kernel busy for ever: some 10 minutes at
-# N = 10.
+# Blocks that slide without end would keep the kernel busy forever; this limit is some
+# 10 minutes for N = 10.
 MAX_WINDOWS = 1_000_000_000
 
 
@@ -45,16 +45,16 @@ def simulate(
     chain : Chain
         The chain.
     duration : float
-        Time to run [s]; with `until`, the limit.
+        Time to run [s]; with `until`, the longest time.
     until : "global slip", optional
         Stop at the end of the first event in which all blocks slide at the same
-        instant; blocks with next to no load (`Chain.bears_load`) do not count.
+        instant. Blocks with almost no load do not count (`Chain.bears_load`).
     start_positions, start_velocities : array_like, shape (N,), optional
         Positions [m] relative to springs at natural length, and velocities [m/s], at
         time 0; zero by default.
     max_transitions : int, optional
-        Cap on the number of transitions; by default ten million, and one million for
-        more than 500 blocks.
+        Largest number of transitions; by default ten million, or one million for more
+        than 500 blocks.
 
     Returns
     -------
@@ -64,8 +64,8 @@ def simulate(
     Raises
     ------
     TransitionLimitError
-        If the cap, or one on the work of chains that hardly ever rest, is met; its
-        attribute `run` holds what was computed.
+        If the run meets this limit, or the limit of work of a chain that hardly ever
+        rests. Its attribute `run` is the motion up to there.
     """
     end = checked_end([chain], duration, until, max_transitions)
     positions = checked_start("start_positions", start_positions, "m", chain)
@@ -79,7 +79,7 @@ def checked_end(
     until: Until,
     most: int | None,
 ) -> End:
-    """Check what is simulated and where it ends."""
+    """Check the chains, and return where their runs end."""
     for chain in chains:
         if not isinstance(chain, Chain):
             raise TypeError(
@@ -97,7 +97,8 @@ def checked_end(
 def checked_start(
     name: str, values: ArrayLike | None, unit: str, chain: Chain
 ) -> FloatArray:
-    """Check positions or velocities at the start; zero by default."""
+    """Return checked positions or velocities at the start, which are zero by
+    default."""
     if values is None:
         return np.zeros(chain.n_blocks)
     start = block_array(name, values, unit)

@@ -1,1 +1,2 @@
-"""Files written whole, measured tables, provenance, kept machine code; no physics."""
+"""Input and output without physics: files, measured tables, provenance, compiled
+code."""

@@ -1,4 +1,4 @@
-"""The commit of the sources."""
+"""Find the commit of the sources."""
 
 import json
 import subprocess
@@ -6,20 +6,20 @@ import warnings
 from importlib.metadata import distribution
 from pathlib import Path
 
-COMMIT_FILE = "commit.json"  # what `git_state` said when the wheel was built
+COMMIT_FILE = "commit.json"  # result of `git_state` when the wheel was built
 
 
 def git_state(root: Path) -> dict[str, str | bool] | None:
-    """Commit of the sources, its software hash identifiers, and whether files were
-    changed since.
+    """Return the commit of the sources, its identifiers, and whether files have
+    changed.
 
-    None where git does not know the sources. The identifiers (SWHID) are git's own
-    hashes.
+    The software hash identifiers (SWHID) are git's own hashes. The result is None if
+    git does not track the sources.
     """
     is_known = _git(root, "ls-files", "Snakefile")
-    if not is_known or not (told := _git(root, "show", "-s", "--format=%H %T")):
+    if not is_known or not (hashes := _git(root, "show", "-s", "--format=%H %T")):
         return None
-    commit, tree = told.split()
+    commit, tree = hashes.split()
     return {
         "commit": commit,
         "swh_revision": f"swh:1:rev:{commit}",
@@ -29,16 +29,16 @@ def git_state(root: Path) -> dict[str, str | bool] | None:
 
 
 def built_state() -> dict[str, str | bool] | None:
-    """The same of the sources that the installed wheel was built from; None where it
-    does not say."""
+    """Return the `git_state` from which the installed wheel was built, or None if the
+    wheel has no record of it."""
     text = distribution("precursors").read_text(f"extra_metadata/{COMMIT_FILE}")
     state: dict[str, str | bool] | None = json.loads(text) if text else None
     return state
 
 
 def _git(root: Path, *command: str) -> str:
-    """Output of a git command, or nothing where it fails; in a checkout with a
-    warning."""
+    """Return the output of a git command, or nothing if it fails; in a checkout, a
+    failure gives a warning."""
     try:
         answer = subprocess.run(
             ["git", "-C", root, *command], capture_output=True, text=True
@@ -47,7 +47,7 @@ def _git(root: Path, *command: str) -> str:
         return ""
     if answer.returncode == 0:
         return answer.stdout.strip()
-    if (root / ".git").exists():  # of another user, or without a commit
+    if (root / ".git").exists():  # it belongs to another user, or has no commit
         why = answer.stderr.partition("\n")[0]
         warnings.warn(f"the commit is unknown: git says {why!r}", stacklevel=2)
     return ""

@@ -1,4 +1,4 @@
-"""Machine code that is kept until its sources change."""
+"""Cache compiled code until its sources change."""
 
 import hashlib
 import os
@@ -23,14 +23,14 @@ untyped: Any = numba
 if untyped.config.DISABLE_JIT:
     raise ImportError("the solver must be compiled: unset NUMBA_DISABLE_JIT")
 
-KEPT = 20  # states of the sources whose machine code is kept
+CACHED_VERSIONS = 20  # versions of the sources whose machine code stays cached
 
 
 class UserCache(UserWideCacheLocator):
-    """Tells Numba to keep machine code in `place`, which all clones with these sources
+    """Let Numba cache machine code in `place`, which all clones with the same sources
     share.
 
-    Numba's own locators put the directory of the sources into the path.
+    Numba's own locators use the directory of the sources, so each clone would compile.
     """
 
     place = Path()
@@ -40,21 +40,20 @@ class UserCache(UserWideCacheLocator):
         self._place = self.place
 
     def get_cache_path(self) -> str:
-        """Name of the directory."""
+        """Return the name of the directory."""
         return os.fspath(self._place)
 
     def get_source_stamp(self) -> str:
-        """Stamp that changes with the sources."""
+        """Return a stamp that changes with the sources."""
         return self._place.name
 
 
 def entry(*sources: Path, **options: Any) -> Any:
-    """Decorator for functions that Python calls; their code is kept until one of the
-    sources is edited: modules, or directories of modules.
+    """Decorate a function that Python calls: its code is cached until a source changes.
 
-    Numba looks at the file of a function only, and not at those of the functions that
-    it calls. So the code is kept in a directory that is named after the first source
-    and the checksum of all.
+    The sources are modules or directories of modules. Numba checks only the file of the
+    function itself, not those of the functions that it calls. The cache directory is
+    therefore named after the first source and the checksum of all of them.
     """
     place = _cache_place(sources[0].stem, checksum(*sources))
 
@@ -73,13 +72,15 @@ def entry(*sources: Path, **options: Any) -> Any:
 
 
 class Announcement(event.Listener):
-    """Says on stderr, once, that code is compiled: for
-    `event.install_listener("numba:compile", ...)`."""
+    """Print a message on stderr when the first function is compiled.
+
+    Install it with `event.install_listener("numba:compile", ...)`.
+    """
 
     is_made = False
 
     def on_start(self, _: event.Event) -> None:
-        """Say it."""
+        """Print the message once."""
         if not self.is_made:
             self.is_made = True
             print(
@@ -89,11 +90,12 @@ class Announcement(event.Listener):
             )
 
     def on_end(self, _: event.Event) -> None:
-        """Say nothing."""
+        """Ignore the end of a compilation."""
 
 
 def checksum(*sources: Path) -> str:
-    """Checksum of modules, of all in a directory, and of Numba's version."""
+    """Return a checksum of modules or directories of modules, and of Numba's
+    version."""
     digest = hashlib.sha256(numba.__version__.encode())
     for source in sources:
         for file in sorted(source.glob("*.py")) or [source]:
@@ -102,30 +104,29 @@ def checksum(*sources: Path) -> str:
 
 
 def _cache_place(name: str, digest: str) -> Path | None:
-    """A directory that can be written, named after sources and their checksum; None,
-    with a warning.
+    """Return a writable directory named after the sources, or None with a warning.
 
-    What was compiled from sources of long ago is removed, and what was not written to
-    its end.
+    Code compiled from old versions of the sources is removed, and so are incomplete
+    files.
     """
     cache = os.environ.get("XDG_CACHE_HOME") or "~/.cache"
     base = Path(untyped.config.CACHE_DIR or Path(cache, "precursors"))
     try:
         place = base.expanduser() / f"{name}-{digest}"
         place.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=place):  # marks when it was used last
+        with tempfile.TemporaryFile(dir=place):  # updates its time of last use
             places = sorted(
                 place.parent.glob(f"{name}-*"),
                 key=lambda one: one.stat().st_mtime,
             )
-        for old in places[:-KEPT]:
+        for old in places[:-CACHED_VERSIONS]:
             shutil.rmtree(old, ignore_errors=True)
         for file in place.glob("*.nb[ci]"):
             if not file.read_bytes().endswith(pickle.STOP):
                 file.unlink(missing_ok=True)
         if shutil.disk_usage(place).free > LEAST_ROOM:
             return place
-    except (OSError, RuntimeError):  # it cannot be written, or there is no home
+    except (OSError, RuntimeError):  # no permission, or no home directory
         pass
     warnings.warn(
         f"compiled code cannot be kept in {base}, so every process compiles "

@@ -1,4 +1,4 @@
-"""Files that are either complete or absent, and the tables of results/tables."""
+"""Write files completely or not at all, and read and write tables."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ if TYPE_CHECKING:
 
 AnyPath = str | os.PathLike[str]
 LONGEST_NAME = 240  # bytes of 255; a temporary name is longer
-LEAST_ROOM = 10_000_000  # bytes; a run of 10 s and its figure take less
-MOST_READ = 100_000_000  # bytes of a text; an hour of F_X at 1 kHz takes less
+LEAST_ROOM = 10_000_000  # free bytes; a run of 10 s and its figure need less
+MOST_READ = 100_000_000  # bytes of a text; an hour of F_X at 1 kHz has fewer
 
 
 def read_bytes(path: AnyPath) -> bytes:
-    """Read a file that somebody wrote, but no device or pipe, which may have no end.
+    """Read a regular file; devices and pipes, which may never end, are refused.
 
     Raises
     ------
     OSError
-        In one line that names `path`.
+        If it cannot be read; the message is one line that names `path`.
     """
     status = os.stat(path)
     if not stat.S_ISREG(status.st_mode):
@@ -37,17 +37,16 @@ def read_bytes(path: AnyPath) -> bytes:
 
 
 def write_whole(path: AnyPath, content: bytes) -> None:
-    """Write a file under a temporary name of its own beside `path`, and rename it: it is
-    complete or as it was before.
+    """Write a file under a temporary name beside `path`, then rename it.
 
-    Missing parent directories are made.
+    The file is either complete or unchanged. Missing parent directories are made.
 
     Raises
     ------
     OSError
-        In one line that names `path`, if it cannot be written.
+        If it cannot be written; the message is one line that names `path`.
     """
-    target = Path(os.path.realpath(path))  # a link is followed, and stays a link
+    target = Path(os.path.realpath(path))  # write to the target of a link
     temporary = target.with_name(f".partial.{uuid4().hex}")
     try:
         if target.exists() and not target.is_file():
@@ -63,15 +62,15 @@ def write_whole(path: AnyPath, content: bytes) -> None:
 
 
 def check_writable(path: AnyPath, endings: Sequence[str] = ()) -> None:
-    """Refuse a file that could not be written, before the work that it is to hold.
+    """Refuse a file that cannot be written, before its content is computed.
 
     Raises
     ------
     ValueError
-        If its name has none of the endings.
+        If its name has none of the `endings`.
     OSError
-        If it is a directory, or its directory cannot be made or written to, or has no
-        room.
+        If it is a directory, or its directory cannot be made, is not writable or is
+        full.
     """
     target = Path(os.path.realpath(path))
     if endings and target.suffix.lower() not in endings:
@@ -93,15 +92,18 @@ def check_writable(path: AnyPath, endings: Sequence[str] = ()) -> None:
 
 
 def write_text(path: AnyPath, text: str) -> None:
-    """Write a text file, whole or not at all."""
+    """Write a text file, completely or not at all."""
     write_whole(path, text.encode())
 
 
 def write_table(
     table: pd.DataFrame, path: AnyPath, decimal: Literal[".", ","] = "."
 ) -> None:
-    """Write a table with every digit of its numbers: as TSV if the name ends so, else
-    as CSV, which has semicolons beside decimal commas."""
+    """Write a table with all digits of its numbers.
+
+    The format is TSV if the name ends in .tsv, and CSV otherwise. With decimal commas,
+    CSV separates columns by semicolons.
+    """
     is_tsv = Path(path).suffix.lower() == ".tsv"
     separator = "\t" if is_tsv else ";" if decimal == "," else ","
     text = table.to_csv(
@@ -111,7 +113,7 @@ def write_table(
 
 
 def read_table(path: AnyPath, **how: Any) -> pd.DataFrame:
-    """Read a CSV table; `how` as for `pandas.read_csv`.
+    """Read a CSV table; `how` takes options of `pandas.read_csv`.
 
     Raises
     ------
@@ -120,7 +122,7 @@ def read_table(path: AnyPath, **how: Any) -> pd.DataFrame:
     ValueError
         If it is not a table.
     """
-    import pandas as pd  # here, as a run needs no tables
+    import pandas as pd  # imported lazily: a run needs no tables
 
     try:
         return pd.read_csv(path, **how)

@@ -1,4 +1,4 @@
-"""Measured tables: a column is found by its name and its unit, or it is chosen."""
+"""Read measured tables, whose columns are identified by name and unit or by choice."""
 
 from __future__ import annotations
 
@@ -20,14 +20,18 @@ if TYPE_CHECKING:
     import pandas as pd
 
 Numbers = NDArray[np.float64]
-Choice = Mapping[str, str]  # columns by the symbols of quantities
+Choice = Mapping[str, str]  # from the symbol of a quantity to a column
 BY_NAME: Choice = {}
 
 
 @dataclass(frozen=True, eq=False)
 class Quantity:
-    """What a column may hold: its symbol and unit here; names that say it; words that
-    say it if no other column has a unit of it; and what one of each unit is."""
+    """A quantity that a column may hold.
+
+    `symbol` and `unit` are those of this library. A column has the quantity if its name
+    is one of `names`, or one of `words` in any case. `units` are the units that are
+    read, in terms of `unit`.
+    """
 
     symbol: str
     unit: str
@@ -38,8 +42,8 @@ class Quantity:
     def __str__(self) -> str:
         return f"{self.symbol} [{self.unit}]"
 
-    def is_said_by(self, name: str) -> bool:
-        """Whether a name without its unit says this quantity."""
+    def is_named(self, name: str) -> bool:
+        """Whether a column name without its unit names this quantity."""
         return name in self.names or name.casefold() in self.words
 
 
@@ -47,7 +51,7 @@ SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0}
 NEWTONS = {"N": 1.0, "kN": 1e3, "MN": 1e6, "mN": 1e-3, "lbf": 4.4482216152605}
 METRES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "in": 0.0254}
 SHARES = {"-": 1.0, "1": 1.0, "%": 1e-2}
-# Of a pressure only the shape counts.
+# Only the shape of a pressure matters, so all units are equal.
 PRESSURES = dict.fromkeys(["Pa", "kPa", "MPa", "bar", "psi", "N/mm2", *SHARES], 1.0)
 
 TIME = Quantity("t", "s", ("t",), ("time",), SECONDS)
@@ -58,17 +62,17 @@ POSITION = Quantity("x", "m", ("x",), ("position",), METRES)
 PRESSURE = Quantity("p", "MPa", ("p",), ("pressure",), PRESSURES)
 
 COMMENT = re.compile(r"\s*[#%]")
-# What a spreadsheet writes where a formula fails, as #N/A, is no comment.
+# A spreadsheet marks a failed formula by #N/A or the like, which is not a comment.
 FAILED = re.compile(r"\s*#[^\W\d_a-z][^\s;,a-z]*\s*([;,\t]|$)")
 NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d{1,3})?", re.ASCII)
-BEGINS = re.compile(r"[-+.,]?\d")  # a number, even if more stands in its cell
+BEGINS = re.compile(r"[-+.,]?\d")  # a number, possibly with more text in its cell
 NAME_AND_UNIT = re.compile(r"(.*?)\s*[\[(]\s*([^\[\]()]*?)\s*[\])]")
-ROUNDING = 1e-12  # by which a share that is computed may be above 1
+ROUNDING = 1e-12  # a computed share may exceed 1 by this much
 
 
 class Match(NamedTuple):
-    """A column for a quantity: how to choose it, and its place and unit or the reason
-    why it is not certain."""
+    """The column of a quantity: the text that chooses it, and its place and unit, or
+    the reason for doubt."""
 
     suggestion: str
     place: int = 0
@@ -77,8 +81,11 @@ class Match(NamedTuple):
 
 
 class Table(NamedTuple):
-    """A table of text. Its rows have the numbers of their lines in a file, or count
-    from 1 in a DataFrame, which has no separator."""
+    """A table of text.
+
+    `lines` are the line numbers of its rows in a file, or count from 1 in a DataFrame,
+    whose `separator` is empty.
+    """
 
     names: Sequence[str]
     lines: Sequence[int]
@@ -88,18 +95,20 @@ class Table(NamedTuple):
     def columns(
         self, needed: Sequence[Quantity], choice: Choice, length: float = math.nan
     ) -> Numbers:
-        """Numbers of some quantities in their units, shape (rows, quantities).
+        """Return the numbers of some quantities in their units, shape (rows,
+        quantities).
 
-        `length` is that of the slider [m], for front lengths that are no shares.
+        `length` [m] is that of the slider; it converts front lengths in metres to
+        shares.
 
         Raises
         ------
         ValueError
-            If a column is not certain, or a row is not whole.
+            If a column is ambiguous or missing, or a row is incomplete.
         """
         if not self.rows:
             raise ValueError("there are no numbers")
-        # A column alone needs no name.
+        # A single column needs no name.
         names = self.names or [str(needed[0]) if len(needed) == 1 else ""]
         matches = [(q, _match(q, names, choice.get(q.symbol, ""))) for q in needed]
         doubts = [match.doubt for _, match in matches if match.doubt]
@@ -158,14 +167,15 @@ class Table(NamedTuple):
 
 
 def read_table(source: AnyPath | pd.DataFrame, header_line: int | None = None) -> Table:
-    """Read a table from its names on, without comments and empty lines at the end.
+    """Read a table, without comments, lines above its header and empty lines at its
+    end.
 
     Raises
     ------
     OSError
         If the file cannot be read.
     ValueError
-        If it is no table.
+        If it is not a table.
     """
     if not isinstance(source, (str, PathLike)):
         rows = [list(map(str, row)) for row in source.itertuples(index=False)]
@@ -209,20 +219,21 @@ def read_series(
     header_line: int | None = None,
     sample_rate: float | None = None,
 ) -> list[tuple[Quantity, Numbers]]:
-    """Read x beside each y that is chosen, or that a name says, shape (rows, 2).
+    """Read x with each y that is chosen or named in the header, each of shape (rows,
+    2).
 
-    With a `sample_rate` [Hz] the table has no times. The other arguments are those of
-    `read_table` and `Table.columns`.
+    With a `sample_rate` [Hz], times are computed and the table must have none. For the
+    other arguments see `read_table` and `Table.columns`.
     """
     with refusals_of(source):
         table = read_table(source, header_line)
         words = [_parts(name)[0] for name in table.names]
         if sample_rate is not None and (
-            x.symbol in choice or any(map(x.is_said_by, words))
+            x.symbol in choice or any(map(x.is_named, words))
         ):
             raise ValueError("it has times: leave out --sample-rate")
         chosen = [y for y in ys if y.symbol in choice]
-        named = [y for y in ys if any(map(y.is_said_by, words))]
+        named = [y for y in ys if any(map(y.is_named, words))]
         series = []
         for y in chosen or named or ys[:1]:
             needed = [x, y] if sample_rate is None else [y]
@@ -237,7 +248,8 @@ def read_series(
 def read_weights(
     path: AnyPath, choice: Choice = BY_NAME, header_line: int | None = None
 ) -> list[float]:
-    """Read normal loads [N], a row for each block, which a column `block` may number."""
+    """Read normal loads [N], one row per block; a column `block` may number the
+    rows."""
     with refusals_of(path):
         table = read_table(path, header_line)
         weights = table.columns([WEIGHT], choice)[:, 0].tolist()
@@ -255,8 +267,11 @@ def read_weights(
 def read_profile(
     path: AnyPath, choice: Choice = BY_NAME, header_line: int | None = None
 ) -> Numbers:
-    """Read positions [m] from the pushed end and the pressure there in any unit, shape
-    (2, rows); a column alone is the pressure in equal cells, shape (1, rows)."""
+    """Read positions [m] from the pushed end and pressures in any unit, shape (2,
+    rows).
+
+    A single column is the pressure in equal cells, shape (1, rows).
+    """
     with refusals_of(path):
         table = read_table(path, header_line)
         needed = [POSITION, PRESSURE] if len(table.names) > 1 else [PRESSURE]
@@ -265,7 +280,7 @@ def read_profile(
 
 @contextmanager
 def refusals_of(source: object) -> Iterator[None]:
-    """Puts the name of a table before what is wrong in it."""
+    """Put the name of a table in front of an error message about it."""
     try:
         yield
     except (ValueError, csv.Error) as error:
@@ -274,7 +289,7 @@ def refusals_of(source: object) -> Iterator[None]:
 
 
 def _match(quantity: Quantity, names: Sequence[str], chosen: str) -> Match:
-    """The column that is chosen by its name or number, else that which is named."""
+    """Find the column of a quantity: by the user's choice, or else by its name."""
     parts = [_parts(name) for name in names]
     wanted, chosen_unit = _parts(chosen)
     if chosen:
@@ -285,7 +300,7 @@ def _match(quantity: Quantity, names: Sequence[str], chosen: str) -> Match:
         ]
     else:
         exact = [words in quantity.names for words, _ in parts]
-        alike = [quantity.is_said_by(w) or u in quantity.units for w, u in parts]
+        alike = [quantity.is_named(w) or u in quantity.units for w, u in parts]
     places = np.flatnonzero(exact if any(exact) else alike).tolist()
     if len(places) != 1:
         called = " or ".join(f"column {i + 1}, {names[i]!r}" for i in places)
@@ -302,20 +317,20 @@ def _match(quantity: Quantity, names: Sequence[str], chosen: str) -> Match:
     if unit not in quantity.units:
         units = ", ".join(quantity.units)
         doubt = f"{names[place]!r} needs one of these units in brackets: {units}"
-    if not chosen and not quantity.is_said_by(words):
+    if not chosen and not quantity.is_named(words):
         doubt = f"no column is {quantity}"
     added = "" if own_unit in quantity.units else f" [{quantity.unit}]"
     return Match(names[place] + added, place, unit, doubt)
 
 
 def _parts(name: str) -> tuple[str, str]:
-    """A name without its unit, and the unit, in brackets at its end."""
+    """Split a name from the unit in brackets at its end."""
     parts = NAME_AND_UNIT.fullmatch(name)
     return (parts[1], re.sub("[µμ]", "u", parts[2])) if parts else (name, "")
 
 
 def _is_value(cell: str) -> bool:
-    """Whether a cell is a number, or what stands for one, and so no name."""
+    """Whether a cell is a number or a failed formula, and hence not a name."""
     try:
         float(cell.replace(",", "."))
     except ValueError:

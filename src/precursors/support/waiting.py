@@ -1,4 +1,4 @@
-"""Progress of long work, told at a terminal."""
+"""Run tasks in threads, and show progress at a terminal."""
 
 from collections.abc import Callable, Iterable, Sequence
 from multiprocessing.pool import ThreadPool
@@ -13,8 +13,10 @@ FORMAT = "{desc}: {percentage:.0f}%, {remaining} left"
 
 
 def bar(work: str, total: float, steps: Iterable[Any] | None = None) -> Any:
-    """A `tqdm` of the steps that says on stderr, if it is a terminal, how much is done;
-    silent outside the main thread."""
+    """Return a `tqdm` bar of `steps`, shown if stderr is a terminal.
+
+    Outside the main thread it shows nothing.
+    """
     return tqdm(
         steps,
         desc=work,
@@ -28,12 +30,12 @@ def bar(work: str, total: float, steps: Iterable[Any] | None = None) -> Any:
 
 
 def in_threads(tasks: Sequence[Callable[[], Result]], threads: int = 1) -> list[Result]:
-    """Run tasks that release the GIL in threads, no more than there are tasks, and say
-    how many are done.
+    """Run tasks that release the GIL in threads, and show how many are done.
 
-    After Ctrl-C or an error no task is started, and running ones are not waited for.
+    After Ctrl-C or an error no further task is started, and running tasks are
+    abandoned.
     """
-    # Its threads are daemons, for which nobody waits at the end, unlike those of
-    # concurrent.futures.
+    # ThreadPool has daemon threads, which do not delay the exit of the interpreter;
+    # those of concurrent.futures do.
     with ThreadPool(max(1, min(threads, len(tasks)))) as pool:
         return list(bar("running", len(tasks), pool.imap(lambda task: task(), tasks)))

@@ -1,5 +1,4 @@
-"""Every failure mode is measured: what a method gives is not right, and is what theory
-predicts."""
+"""Every failure mode is measured: results of the methods are wrong, as theory predicts."""
 
 from functools import cache
 from pathlib import Path
@@ -9,13 +8,13 @@ import pandas as pd
 import pytest
 from places import made
 
+from maegawa2010.methods.stability import highest_frequency
 from maegawa2010.studies.failures import figure
 from maegawa2010.studies.failures.common import Curve
-from maegawa2010.studies.failures.stability import highest_frequency
 from maegawa2010.studies.failures.tables import FAILURE_MODES
 from precursors import Chain
 
-# Between a measured curve and the closed form, of its first order.
+# Between a measured curve and the closed form, which is of first order.
 THEORY_TOLERANCE = 0.02
 
 
@@ -25,7 +24,7 @@ def measured(name: str) -> list[Curve]:
 
 
 def curves(mode: str, role: str) -> dict[str, np.ndarray]:
-    """Points of the curves of a failure mode in a role, shape (2, n), by their names."""
+    """Points of a failure mode's curves with a role, shape (2, n), by name."""
     return {c.name: np.array([c.x, c.y]) for c in measured(mode) if c.role == role}
 
 
@@ -34,12 +33,12 @@ def test_a_method_fails_as_theory_predicts(mode):
     theory = curves(mode, "theory")
     for name, (x, y) in curves(mode, "failing").items():
         predicted = np.interp(x, *theory[name])
-        # Near its limit, the energy of leapfrog swings.
+        # Near its limit, the energy of leapfrog oscillates.
         far = slice(-3 if mode == "unstable" else None, None)
         np.testing.assert_allclose(y[far], predicted[far], rtol=THEORY_TOLERANCE)
 
 
-def test_what_a_method_gives_is_not_what_is_right():
+def test_failing_methods_differ_from_the_exact_solution():
     limit = Chain.from_slider().strength[0]
     assert curves("literal_friction", "exact")["exact"][1].max() > 2.5 * limit
     for _, load in curves("literal_friction", "failing").values():
@@ -50,7 +49,7 @@ def test_what_a_method_gives_is_not_what_is_right():
     assert (steps[1, 1:] > 0.0).all()
 
 
-def test_rk4_beyond_its_limit_finishes_with_friction_and_is_wrong_at_every_step():
+def test_rk4_beyond_its_limit_ends_wrong_without_an_error():
     (step, friction), *_ = curves("silent_instability", "failing").values()
     exact = curves("silent_instability", "exact")["exact"][1, 0]
     assert min(friction) < 0.95 * exact
@@ -65,7 +64,7 @@ PANELS = Path(figure.__file__).with_name("failure_gallery.csv")
 
 
 def gallery_of_failures():
-    """Of the curves that the workflow wrote."""
+    """The gallery with the curves of the build."""
     return figure.draw(made("failure_curves"), pd.read_csv(PANELS))
 
 

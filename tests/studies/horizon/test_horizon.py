@@ -1,5 +1,5 @@
-"""The Lyapunov exponent is that of the linearised motion, a rate, and as uncertain as
-it says."""
+"""Certificates belong to the configured chains, and the Lyapunov exponent is that of the
+linearised motion."""
 
 from dataclasses import replace
 
@@ -8,21 +8,32 @@ import pandas as pd
 import pytest
 import scipy
 from chains import SLIDER
+from places import CERTIFICATES
+from settings import CONFIG
 
 from maegawa2010.studies.horizon import figure, lyapunov
+from maegawa2010.studies.horizon.chains import (
+    chain_duration,
+    exact_chain,
+    is_about,
+    scene_exact_chain,
+)
 from maegawa2010.studies.horizon.lyapunov import lyapunov_exponent, lyapunov_table
 from maegawa2010.studies.horizon.tables import proof_tables
 from precursors import simulate
-from precursors.proof import ExactChain, certify
+from precursors.proof import Certificate, ExactChain, certify
 
-# Exponents [1/s] that the linearised motion gave for the scenes.
+CHAINS = CONFIG["horizon"]["proved"]
+# Largest size of a committed certificate [bytes].
+LARGEST_FILE = 300_000
+# Exponents of the linearised motion of the scenes [1/s].
 LINEARISED = {"-5/6": 1.657, "0": 2.164, "5/6": 1.909}
 
 
 @pytest.fixture
 def exponent_of(monkeypatch):
-    """The exponent of made-up events: which transitions begin them, growth, and times of
-    transitions."""
+    """A function that computes the exponent of made-up events from the numbers of their
+    first transitions, their growth, and the times of transitions."""
 
     def exponent(onset, growth, time):
         monkeypatch.setattr(lyapunov, "_growth", lambda _: (time[onset], growth))
@@ -34,17 +45,16 @@ def exponent_of(monkeypatch):
 @pytest.mark.parametrize("theta", LINEARISED)
 def test_the_exponents_are_those_of_the_linearised_motion(theta):
     exponent = lyapunov_exponent(simulate(SLIDER(theta=theta), 100.0))
-    # Beyond the predictability time another rounding gives another run, and a mean over
-    # it another value.
+    # Beyond the predictability time the run depends on rounding, and so does its mean.
     assert exponent["exponent_per_s"] == pytest.approx(
         LINEARISED[theta], abs=exponent["uncertainty_per_s"]
     )
     assert exponent["uncertainty_per_s"] < exponent["exponent_per_s"]
 
 
-def test_the_exponent_is_a_rate_and_does_not_depend_on_the_distance(monkeypatch):
-    """Four times the mass, half the speed: the same motion, twice as slow, to the last
-    digit."""
+def test_the_exponent_scales_with_time_and_not_with_distance(monkeypatch):
+    """With four times the mass and half the drive velocity the motion is the same, but
+    twice as slow."""
     chain = SLIDER(theta="5/6", drive_velocity=1e-3)
     slow = replace(chain, mass=4 * chain.mass, drive_velocity=chain.drive_velocity / 2)
     run = simulate(chain, 2.0)
@@ -60,19 +70,16 @@ def test_the_exponent_is_a_rate_and_does_not_depend_on_the_distance(monkeypatch)
 
 
 @pytest.mark.parametrize(("n", "used"), [(21, 20), (40, 20), (41, 40), (400, 380)])
-def test_the_interval_of_an_exponent_is_that_of_the_mean_of_20_stretches(
-    n, used, exponent_of
-):
-    """Of events that each last 0.3 s and 7 transitions, after a tenth that is left
-    out."""
+def test_the_uncertainty_is_that_of_the_mean_of_20_stretches(n, used, exponent_of):
+    """Events last 0.3 s and have 7 transitions each; the first tenth is left out."""
     n_all = n + round(n * lyapunov.TRANSIENT / (1 - lyapunov.TRANSIENT))
     growth = np.cumsum(np.random.default_rng(n).normal(0.5, 1.0, n_all))
-    found = exponent_of(7 * np.arange(n_all), growth, 0.3 / 7 * np.arange(7 * n_all))
+    exponent = exponent_of(7 * np.arange(n_all), growth, 0.3 / 7 * np.arange(7 * n_all))
     means = np.diff(growth[n_all - 1 - used :: used // 20]) / (used // 20)
     low, high = scipy.stats.t.interval(0.95, 19, means.mean(), scipy.stats.sem(means))
-    assert found["events"] == used
-    assert found["exponent_per_s"] == pytest.approx(means.mean() / 0.3)
-    assert found["uncertainty_per_s"] == pytest.approx((high - low) / 0.6)
+    assert exponent["events"] == used
+    assert exponent["exponent_per_s"] == pytest.approx(means.mean() / 0.3)
+    assert exponent["uncertainty_per_s"] == pytest.approx((high - low) / 0.6)
 
 
 def test_a_run_of_one_block_or_of_few_events_has_no_exponent(exponent_of):
@@ -84,7 +91,7 @@ def test_a_run_of_one_block_or_of_few_events_has_no_exponent(exponent_of):
         exponent_of(np.arange(22), np.arange(22.0), np.arange(22.0))
 
 
-def test_the_tables_hold_what_is_proved_and_what_the_solver_gets_right():
+def test_the_tables_compare_the_solver_with_the_proof():
     chain = ExactChain.from_slider(n_blocks=2, theta="1/2", drive_velocity="1e-3")
     certificate = certify(chain, 0.5)
     n = len(certificate.transitions)
@@ -117,3 +124,37 @@ def predicted_errors():
 
 
 PICTURES = {"horizon": predicted_errors}
+
+
+@pytest.mark.parametrize("name", CHAINS)
+def test_committed_certificates_belong_to_the_configured_chains(
+    name,
+):
+    certificate = Certificate.load(CERTIFICATES / f"{name}.json.gz")
+    chain = exact_chain(name, CHAINS[name])
+    duration = chain_duration(CHAINS[name])
+    assert is_about(certificate, chain, duration)
+    assert not is_about(certificate, chain, 2 * duration)
+    assert not is_about(certificate, replace(chain, mu_k=0), duration)
+    assert (CERTIFICATES / f"{name}.json.gz").stat().st_size < LARGEST_FILE
+
+
+def test_theta_of_a_scene_is_not_rounded():
+    config = {
+        "chain": {"n_blocks": 10, "normal_load": 400.0, "length": 0.1},
+        "load_cells": {"spacing": 0.06},
+        "scenes": {
+            "cells": {"load_cell_a": 100.0, "load_cell_b": 300.0},
+            "fraction": {"theta": "5/6"},
+        },
+    }
+    for name in config["scenes"]:
+        assert scene_exact_chain(config, name) == ExactChain.from_slider(theta="5/6")
+
+
+def test_a_scene_with_measured_loads_is_not_proved():
+    config = {"chain": {}, "scenes": {"measured": {"weights": [30.0, 40.0, 50.0]}}}
+    with pytest.raises(
+        ValueError, match=r"^scenes\.measured must have .* has weights$"
+    ):
+        scene_exact_chain(config, "measured")

@@ -1,4 +1,4 @@
-"""The smaller models: closed forms, and the exact chain where both must agree."""
+"""The smaller models agree with closed forms, dense matrices and the exact chain."""
 
 from dataclasses import replace
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from maegawa2010.studies.models import quasistatic
-from maegawa2010.studies.models.models import MODELS
+from maegawa2010.studies.models.answers import MODELS
 from maegawa2010.studies.models.quasistatic import (
     ENERGY_CONSERVED,
     OVERDAMPED,
@@ -23,7 +23,7 @@ from precursors.model.statics import balance_matrix, load_bound
 SLIDER = Chain.from_slider
 THETAS = ["-5/6", 0.0, "5/6"]
 ROUNDING = 1e-12  # relative, of sums of a few terms
-# Relative, grows from event to event; a wrong set of blocks is off by 1e-2.
+# Relative, growing from event to event; a wrong set of blocks gives errors of 1e-2.
 CASCADE_ROUNDING = 1e-8
 FORCE_ROUNDING = 1e-9  # of F_Z, in the dense cascade
 RUN_ROUNDING = 1e-11  # relative, of the exact solver's times and loads over ten slips
@@ -32,8 +32,8 @@ RUN_ROUNDING = 1e-11  # relative, of the exact solver's times and loads over ten
 def dense_cascade(
     chain: Chain, overshoot: float
 ) -> list[tuple[float, float, int, int]]:
-    """Events (loads before and after, front, blocks that slid) by dense matrices,
-    energies checked."""
+    """Events (loads before and after, front, number of blocks that slid), computed with
+    dense matrices and a check of energies."""
     n = chain.n_blocks
     matrix = balance_matrix(chain)
     stiffness = matrix @ (np.eye(n) - np.eye(n, k=-1))
@@ -129,10 +129,10 @@ def test_cascades_agree_with_dense_matrices_that_balance_energy(
     assert_dense(SLIDER(n_blocks=n_blocks, theta=theta), overshoot)
 
 
-# Two uneven chains in which blocks join, turn round and are put out, those that began
-# the slip among them.
+# Two uneven chains in which blocks join and turn round, including blocks that began the
+# slip.
 @pytest.mark.parametrize(("draw", "mu_k"), [(72, 0.45), (88, 0.6)])
-def test_so_do_cascades_in_which_blocks_turn_round(draw, mu_k):
+def test_cascades_with_blocks_that_turn_round_agree_as_well(draw, mu_k):
     chain = SLIDER(n_blocks=6, mu_k=mu_k, drive_stiffness=8e6)
     uneven = np.random.default_rng(draw).uniform(0.1, 1.9, 6)
     assert_dense(replace(chain, weights=chain.weights * uneven), ENERGY_CONSERVED)
@@ -141,11 +141,11 @@ def test_so_do_cascades_in_which_blocks_turn_round(draw, mu_k):
 def assert_dense(chain: Chain, overshoot: float) -> None:
     slips = quasistatic_slips(chain, overshoot)
     dense = np.array(dense_cascade(chain, overshoot))
-    found = np.array(
+    cascade = np.array(
         [slips[name] for name in ("load_before_N", "load_after_N", "front", "n_slid")]
     ).T
-    np.testing.assert_array_equal(found[:, 2:], dense[:, 2:])
-    np.testing.assert_allclose(found[:, :2], dense[:, :2], rtol=CASCADE_ROUNDING)
+    np.testing.assert_array_equal(cascade[:, 2:], dense[:, 2:])
+    np.testing.assert_allclose(cascade[:, :2], dense[:, :2], rtol=CASCADE_ROUNDING)
     assert slips["is_global"].tolist() == [False] * (len(slips) - 1) + [True]
     # The drive advances while the load grows, and no event takes time.
     before, after = dense[:, :2].T
@@ -160,7 +160,7 @@ def assert_dense(chain: Chain, overshoot: float) -> None:
 
 
 @pytest.mark.parametrize("theta", THETAS)
-def test_the_front_law_comes_closer_to_the_exact_chain_with_more_blocks(theta):
+def test_the_front_law_is_closer_to_the_chain_with_more_blocks(theta):
     errors = []
     for n_blocks in (10, 40):
         chain = SLIDER(n_blocks=n_blocks, theta=theta)
@@ -185,7 +185,7 @@ def test_a_chain_that_no_cascade_fits_gets_one_clear_line(call, message):
         call()
 
 
-def test_a_limit_that_is_met_is_said(monkeypatch):
+def test_a_cascade_that_reaches_a_limit_raises(monkeypatch):
     needed = len(quasistatic_slips(SLIDER()))
     monkeypatch.setattr(quasistatic, "MAX_EVENTS", needed - 1)
     with pytest.raises(RuntimeError, match=f"no global slip within {needed - 1} event"):
@@ -195,7 +195,7 @@ def test_a_limit_that_is_met_is_said(monkeypatch):
         quasistatic_slips(SLIDER())
 
 
-def test_a_run_without_a_global_slip_has_no_answer_to_what_asks_for_it(
+def test_without_a_global_slip_answers_that_need_it_are_nan(
     monkeypatch,
 ):
     monkeypatch.setattr("precursors.model.statics.LIMIT", 0.1)

@@ -1,4 +1,4 @@
-"""Noise: by hand, runs without a global slip, ends of intervals."""
+"""The members of the noise study, and their quantiles."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ from maegawa2010.support.run_statistics import NOISE
 NAN = np.nan
 
 
-def test_draw_0_is_the_scene_and_the_others_have_noise_in_every_normal_load():
+def test_draw_0_is_the_scene_and_the_others_have_noise():
     members = noise_study(SLIDERS, 10.0, {"seed": 1, "runs": 3}).members
     for _, runs in members.groupby("scene"):
         scene, *noisy = (
@@ -24,7 +24,7 @@ def test_draw_0_is_the_scene_and_the_others_have_noise_in_every_normal_load():
             assert (np.abs(change) <= NOISE).all()
 
 
-def test_a_distribution_is_that_of_the_noisy_runs_with_a_global_slip():
+def test_quantiles_are_those_of_noisy_runs_with_a_global_slip():
     row = noise_table(runs_of([5] * 13, a=[0.9, NAN, *np.linspace(0.4, 0.5, 11)])).iloc[
         0
     ]

@@ -1,4 +1,4 @@
-"""Sliders with the same printed inputs: what is drawn, and agreement by hand."""
+"""Random sliders round to the printed inputs, and their agreement is counted."""
 
 import numpy as np
 import pytest
@@ -25,9 +25,9 @@ def test_every_draw_prints_as_the_paper_does():
     assert draws.groupby("draw")["drive_stiffness"].nunique().eq(1).all()
 
 
-def test_agreement_by_hand():
-    """Draw 4 has no global slip in one scene, draw 5 in none: they do not agree. Draw 1
-    has all numbers."""
+def test_shares_of_agreement_are_those_counted_by_hand():
+    """Draw 4 has no global slip in one scene, and draw 5 in both, so they do not agree.
+    Draw 1 has all numbers."""
     mu = {
         "a": [0.5, 0.50, 0.50, 0.50, NAN, NAN],
         "b": [0.5, 0.504, 0.52, 0.491, 0.5, NAN],

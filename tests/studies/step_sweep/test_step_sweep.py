@@ -1,4 +1,4 @@
-"""The step of RK4: its numbers are the paper's where all transitions are right."""
+"""RK4 has the paper's count at steps at which all its transitions are right."""
 
 import numpy as np
 import pandas as pd
@@ -15,9 +15,9 @@ def rows_of(theta, *steps) -> list:
 
 
 @pytest.mark.parametrize(("theta", "right"), [(0.0, 216), ("5/6", 176)])
-def test_a_sweep_gives_the_papers_numbers_where_the_transitions_are_right(theta, right):
-    """Known: at theta = 5/6 and 1e-9 s it is right in 176 of 338 transitions, at 0 in
-    all 216."""
+def test_rk4_has_the_papers_count_if_its_transitions_are_right(theta, right):
+    """With a step of 1e-9 s, 176 of 338 transitions are right at theta = 5/6, and all 216
+    at theta = 0."""
     exact, coarse, fine = rows_of(theta, 1e-5, 1e-9)
     assert np.isnan(exact.step_s)
     assert exact.transitions_right == exact.transitions_true

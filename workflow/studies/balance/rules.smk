@@ -1,5 +1,5 @@
 rule tabulate_balance:
-    """Measure the mean of F_X in six runs, and what slips do to the distance from kinetic balance."""
+    """Measure the mean of F_X in six runs, and how slips change the distance from kinetic balance."""
     output:
         balance=report("results/tables/balance.csv", category="Tables"),
         balance_curves="results/tables/balance_curves.csv",
@@ -17,7 +17,7 @@ rule tabulate_balance:
 
 
 rule draw_balance:
-    """Draw the mean of F_X under three loadings."""
+    """Draw F_X over time and its mean under three loadings."""
     input:
         table="results/tables/balance.csv",
         curves="results/tables/balance_curves.csv",
@@ -89,7 +89,7 @@ elif config["full"]:
 
 
 rule balance:
-    """The distance from kinetic balance, and the mean of F_X."""
+    """The mean of F_X, and the distance from kinetic balance."""
     input:
         rules.tabulate_balance.output,
         rules.draw_balance.output,

@@ -1,5 +1,5 @@
 rule tabulate_failures:
-    """Make every method fail."""
+    """Run methods with settings at which they fail."""
     input:
         methods=PAPERS / "methods/methods.csv",
     output:
@@ -37,7 +37,7 @@ rule draw_failures:
 
 
 rule failures:
-    """Where methods fail."""
+    """Six ways in which methods fail."""
     input:
         rules.tabulate_failures.output,
         rules.draw_failures.output,

@@ -11,7 +11,7 @@ wildcard_constraints:
 
 
 rule take_certificates:
-    """Take over the committed proofs, and prove what has none."""
+    """Copy the committed proofs, and prove chains that have none."""
     input:
         committed=[path for chain in CHAINS if (path := PROOFS / f"{chain}.json.gz").is_file()],
     output:
@@ -28,7 +28,7 @@ rule take_certificates:
 
 
 rule tabulate_horizon:
-    """Compare the solver with the proved transitions, and measure how fast neighbouring motions part."""
+    """Compare the solver with the proofs, and compute the largest Lyapunov exponents."""
     input:
         certificates=CERTIFICATES.values(),
     output:
@@ -50,7 +50,7 @@ rule tabulate_horizon:
 
 
 rule draw_horizon:
-    """Draw how errors grow."""
+    """Draw how errors grow with time."""
     input:
         errors="results/tables/horizon.csv",
     output:
@@ -73,7 +73,7 @@ rule draw_horizon:
 
 
 rule horizon:
-    """Proofs, and how errors grow."""
+    """Proofs of transitions, and how long a run is accurate."""
     input:
         rules.take_certificates.output,
         rules.tabulate_horizon.output,
@@ -98,7 +98,7 @@ rule prove_again:
 
 
 rule prove_scenes:
-    """Every proof made again (on demand)."""
+    """All proofs, made again (on demand)."""
     input:
         collect("results/tables/proved/{chain}.csv", chain=CHAINS),
     localrule: True

@@ -1,5 +1,5 @@
 rule tabulate_models:
-    """Ask every model every question."""
+    """Compare simpler models with the exact chain."""
     output:
         model_comparison=report("results/tables/model_comparison.csv", category="Tables"),
     log:
@@ -14,7 +14,7 @@ rule tabulate_models:
 
 
 rule models:
-    """Smaller models, and which of them answers which question."""
+    """Simpler models, and the questions that each of them answers."""
     input:
         rules.tabulate_models.output,
     localrule: True

@@ -1,5 +1,5 @@
 rule run_noise:
-    """Run a chunk of the chains with noise in the normal loads."""
+    """Simulate one chunk of the runs with noise in the normal loads."""
     output:
         chunk="results/ensembles/noise_members/{chunk}.csv",
     log:
@@ -16,7 +16,7 @@ rule run_noise:
 
 
 rule tabulate_noise:
-    """Sum up the runs with noise."""
+    """Summarise the runs with noise."""
     input:
         chunks=collect("results/ensembles/noise_members/{chunk}.csv", chunk=CHUNKS),
     output:
@@ -33,7 +33,7 @@ rule tabulate_noise:
 
 
 rule noise:
-    """Noise in the normal loads."""
+    """Sensitivity to noise in the normal loads."""
     input:
         rules.tabulate_noise.input,
         rules.tabulate_noise.output,

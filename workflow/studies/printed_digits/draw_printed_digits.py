@@ -10,7 +10,5 @@ with job() as snakemake:
     shares = read(read_table, snakemake.input.shares)
     all_six = shares[shares["question"] == "all_six"].iloc[0]
     figure = draw(list(slips.values()), noise, members, all_six)
-    title = (
-        "the paper's six numbers, and how often noise and other digits keep the counts"
-    )
+    title = "the paper's six numbers, and how often the counts survive noise and other digits"
     save(figure, snakemake.output, title)

@@ -1,5 +1,5 @@
 rule run_printed_digits:
-    """Run a chunk of the sliders with the same printed inputs."""
+    """Simulate one chunk of the sliders with the same printed inputs."""
     output:
         chunk="results/ensembles/digits_members/{chunk}.csv",
     log:
@@ -16,7 +16,7 @@ rule run_printed_digits:
 
 
 rule tabulate_printed_digits:
-    """Sum up the sliders with the same printed inputs."""
+    """Summarise the sliders with the same printed inputs."""
     input:
         chunks=collect("results/ensembles/digits_members/{chunk}.csv", chunk=CHUNKS),
     output:
@@ -35,7 +35,7 @@ rule tabulate_printed_digits:
 if IS_PAPERS:
 
     rule draw_printed_digits:
-        """Draw the paper's six numbers, and how often noise and other digits keep the counts."""
+        """Draw the paper's six numbers, and how often the counts survive noise and other digits."""
         input:
             slips=SLIPS,
             noise="results/tables/noise_members.csv",
@@ -47,7 +47,7 @@ if IS_PAPERS:
                 caption="caption.rst",
                 category="Sensitivity",
                 labels={
-                    "figure": "hero: the paper's six numbers, and how often noise and other digits keep the counts"
+                    "figure": "hero: the paper's six numbers, and how often the counts survive noise and other digits"
                 },
             ),
             collect("results/figures/hero.{kind}", kind=MORE_FORMATS),
@@ -61,7 +61,7 @@ if IS_PAPERS:
 
 
 rule printed_digits:
-    """Sliders with the same printed inputs."""
+    """Sensitivity to digits that the paper does not print."""
     input:
         rules.tabulate_printed_digits.input,
         rules.tabulate_printed_digits.output,

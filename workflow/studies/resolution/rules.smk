@@ -32,7 +32,7 @@ if IS_COMMITTED:
 else:
 
     rule run_resolution:
-        """Run a chunk of the chains with other numbers of blocks."""
+        """Simulate one chunk of the runs with other numbers of blocks."""
         output:
             chunk="results/ensembles/resolution_members/{chunk}.csv",
         log:
@@ -48,7 +48,7 @@ else:
             "run_resolution.py"
 
     rule tabulate_resolution:
-        """Sum up the runs with other numbers of blocks."""
+        """Summarise the runs with other numbers of blocks."""
         input:
             chunks=collect("results/ensembles/resolution_members/{chunk}.csv", chunk=CHUNKS),
             noise="results/tables/noise_members.csv",

@@ -5,7 +5,5 @@ from precursors.support.files import read_table
 
 with job() as snakemake:
     figure = draw(read(read_table, snakemake.input.table))
-    title = (
-        "counts and transitions that are right against the step of a Runge-Kutta method"
-    )
+    title = "right counts and transitions against the step of a Runge-Kutta method"
     save(figure, snakemake.output, title)

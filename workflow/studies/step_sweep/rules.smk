@@ -1,5 +1,5 @@
 rule tabulate_step_sweep:
-    """Run the scenes with Runge-Kutta steps of many sizes."""
+    """Simulate the scenes by a Runge-Kutta method with many step sizes."""
     input:
         runs=RUNS,
         methods=PAPERS / "methods/methods.csv",
@@ -17,7 +17,7 @@ rule tabulate_step_sweep:
 
 
 rule draw_step_sweep:
-    """Draw the transitions that are right against the step of a Runge-Kutta method."""
+    """Draw the percentage of right transitions against the step size."""
     input:
         table="results/tables/step_sweep.csv",
     output:
@@ -26,7 +26,7 @@ rule draw_step_sweep:
             caption="caption.rst",
             category="Accuracy",
             labels={
-                "figure": "step_sweep: counts and transitions that are right against the step of a Runge-Kutta method"
+                "figure": "step_sweep: right counts and transitions against the step of a Runge-Kutta method"
             },
         ),
         collect("results/figures/step_sweep.{kind}", kind=MORE_FORMATS),
@@ -40,7 +40,7 @@ rule draw_step_sweep:
 
 
 rule step_sweep:
-    """The paper's counts against the step of a Runge-Kutta method."""
+    """Counts and transitions against the step of a Runge-Kutta method."""
     input:
         rules.tabulate_step_sweep.output,
         rules.draw_step_sweep.output,

@@ -80,7 +80,7 @@ elif HAS_LONG:
 
 
 rule draw_work_precision:
-    """Draw what accuracy costs, measured by this build and as published for the paper's slider."""
+    """Draw errors against computing time, as measured by this build and as published."""
     input:
         measured="results/tables/work_precision.csv",
         published=["results/tables/speed.csv"] if HAS_LONG else [],

@@ -12,8 +12,8 @@ import pandas as pd
 from maegawa2010.studies.balance.tables import mean_of
 from maegawa2010.studies.runs import so_far
 from precursors.analysis.balance import distance
-from precursors.analysis.slips import find_precursors, find_slips
-from precursors.analysis.summary import summarise
+from precursors.analysis.slips import find_precursors, slip_table
+from precursors.analysis.summary import summary_of
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.statics import maximal_compressions, positions_from_compressions
 from precursors.solver.run import Run
@@ -56,18 +56,18 @@ def at_first_slip(run: Run) -> dict[str, float]:
     the root mean square of that distance, line_rms.
     """
     chain = run.chain
-    slips = find_slips(run)
+    slips = slip_table(run)
     counted = find_precursors(slips)
-    onset, front = counted["onset"].to_numpy(), counted["front"].to_numpy()
+    onset, front = counted["onset_s"].to_numpy(), counted["front"].to_numpy()
     left = np.array([distance(run, t, n)[0] for t, n in zip(onset, front, strict=True)])
     carried = chain.mu_k * np.cumsum(chain.weights)[front - 1]
     bounds = np.sqrt(2.0 * chain.drive_stiffness * left) / chain.normal_load
     reached = counted["is_global"].iloc[-1]
-    miss = (counted["load_before"] - carried) / chain.normal_load
+    miss = (counted["load_before_N"] - carried) / chain.normal_load
     return {
         "R_J": left[-1] if reached else math.nan,
         "bound": bounds[-1] if reached else math.nan,
-        "excess": summarise([run])["mu_sapp"].item() - chain.mu_k,
+        "excess": summary_of(slips).mu_sapp - chain.mu_k,
         "line_bound": float(np.median(bounds)),
         "line_rms": float(np.sqrt(np.mean(miss**2))),
     }

@@ -11,7 +11,7 @@ import pandas as pd
 from maegawa2010.studies.runs import predictable
 from precursors.analysis.balance import balance, distance, drive_work
 from precursors.analysis.load_curve import load_curve
-from precursors.analysis.slips import find_slips
+from precursors.analysis.slips import slip_table
 from precursors.model.chain import Chain
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
@@ -59,8 +59,8 @@ def balance_tables(
 
 def row_of(run: Run) -> dict[str, float]:
     """A row of balance.csv; what needs two global slips is NaN without them."""
-    slips = find_slips(run)
-    onsets = slips["onset"][slips["is_global"]]
+    slips = slip_table(run)
+    onsets = slips["onset_s"][slips["is_global"]]
     first, last = onsets.min(), onsets.max()
     is_lasting = first < last
     mean = mean_of(run, first, last) if is_lasting else Mean(*[math.nan] * 4)
@@ -102,11 +102,11 @@ def over_slips(run: Run, slips: pd.DataFrame) -> dict[str, float]:
     slips is their number, and slips_backward that of those in which a block slides
     backward.
     """
-    over = slips.dropna(subset="end")
-    before, after = distance(run, over["onset"]), distance(run, over["end"])
-    work = drive_work(run, over["end"]) - drive_work(run, over["onset"])
+    over = slips.dropna(subset="end_s")
+    before, after = distance(run, over["onset_s"]), distance(run, over["end_s"])
+    work = drive_work(run, over["end_s"]) - drive_work(run, over["onset_s"])
     backward = run.transitions["time"][run.transitions["mode"] == -1]
-    n_backward = np.searchsorted(backward, [over["onset"], over["end"]])
+    n_backward = np.searchsorted(backward, [over["onset_s"], over["end_s"]])
     row: dict[str, float] = {"slips": len(over)}
     row["slips_backward"] = int(np.diff(n_backward, axis=0).astype(bool).sum())
     for name, joules in (("change", after - before), ("work", work)):

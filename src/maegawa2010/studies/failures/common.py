@@ -1,4 +1,4 @@
-"""A curve of a failure mode."""
+"""The curves of which failure modes consist."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -8,10 +8,10 @@ from numpy.typing import ArrayLike
 
 @dataclass(frozen=True)
 class Curve:
-    """A curve of a failure mode: its name and points.
+    """A curve of a failure mode: name, points and role.
 
-    Its role is that of the method that fails, of the exact solution, of the theory
-    (that of a failing curve has its name), or of something to compare with.
+    The role says whether it is measured with the failing method, exact, predicted by
+    theory (then it has the name of the failing curve), or a reference to compare with.
     """
 
     name: str

@@ -1,35 +1,35 @@
-"""Energy that is made or lost: steps beyond the stability limit, and implicit
-damping."""
+"""Failures in which energy grows or is lost: steps beyond the stability limit, and
+implicit damping."""
 
 import numpy as np
 
 from maegawa2010.methods import METHODS, ROWS, SMOOTH, DivergedError
-from maegawa2010.studies.failures.common import Curve
-from maegawa2010.studies.failures.stability import (
+from maegawa2010.methods.stability import (
     energy_left,
     highest_frequency,
     highest_mode,
     without_friction,
 )
+from maegawa2010.studies.failures.common import Curve
 from precursors.analysis.summary import apparent_friction
 from precursors.model.chain import Chain
 from precursors.solver.simulate import simulate
 
-# Steps over which the factor per step is an average: more for leapfrog, whose energy
-# also swings, fewer for RK4, which damps the mode below the rounding of the others.
+# Number of steps over which the energy factor is averaged: many for leapfrog, whose
+# energy also oscillates; few for RK4, which damps the mode below rounding.
 UNSTABLE_STEPS = {"rk4": 20, "leapfrog": 200}
 POINTS = 21
-# With friction: omega dt from RK4's limit on, and where its runs end.
+# With friction: values of omega dt beyond RK4's limit, and the end of its runs.
 BEYOND = SMOOTH["rk4"].limit * np.linspace(1.0, 1.25, 51)[1:]
 END = 10.0  # s
-# Time of a short slip [s], and the steps with which Moreau-Jean time stepping goes
-# through it.
+# Duration of a short slip [s], and steps of Moreau-Jean time stepping [s].
 SLIP = 100e-6
 DAMPING_STEPS = (1e-6, 1e-7, 1e-8)
 
 
 def unstable() -> list[Curve]:
-    """RK4 above omega dt = 2 sqrt 2 and leapfrog above 2, without friction."""
+    """Without friction, energy grows in RK4 above omega dt = 2 sqrt 2, and in leapfrog above
+    omega dt = 2."""
     chain = without_friction(Chain.from_slider())
     omega = highest_frequency(chain)
     mode = highest_mode(chain)
@@ -51,8 +51,8 @@ def unstable() -> list[Curve]:
 
 
 def silent_instability() -> list[Curve]:
-    """RK4 above its limit with friction: stops take the energy away, so that no number
-    overflows at first."""
+    """With friction, RK4 above its limit gives wrong results without an overflow, because
+    stops remove the energy."""
     chain = Chain.from_slider()
     exact = apparent_friction(simulate(chain, END, "global slip"))
     steps = BEYOND / highest_frequency(chain)
@@ -72,7 +72,7 @@ def silent_instability() -> list[Curve]:
 
 
 def numerical_damping() -> list[Curve]:
-    """Implicit Moreau-Jean time stepping slows down what moves freely."""
+    """Implicit Moreau-Jean time stepping damps free motion."""
     chain = without_friction(Chain.from_slider())
     omega = highest_frequency(chain)
     mode = highest_mode(chain)

@@ -1,4 +1,4 @@
-"""The failure gallery: a panel for each failure mode."""
+"""Figure: the failure gallery, with a panel for each failure mode."""
 
 import re
 from typing import Any
@@ -21,9 +21,9 @@ LOOKS: dict[str, Options] = {
 def draw(curves: pd.DataFrame, panels: pd.DataFrame) -> Figure:
     """Draw the failure modes of failure_curves.csv.
 
-    A row of `panels` (failure_gallery.csv) is a panel: its title and its axes, `scale`
-    being from the table's x to the axis; how points of a failing curve look, and where
-    the key stands.
+    `panels` (failure_gallery.csv) has a row for each panel: its title, axes, the factor
+    `scale` from the table's x to the axis, the format of a failing curve, and the
+    position of the legend.
     """
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         grid = figure.subplots(3, 2).flat
@@ -62,6 +62,6 @@ def _draw_curves(axes: Axes, panel: Any, curves: pd.DataFrame) -> None:
 
 
 def pretty(text: str) -> str:
-    """Write dt and 1e-07 as mathematics."""
+    """Write `dt` and numbers such as 1e-07 in mathematical notation."""
     text = text.replace("dt =", r"$\Delta t$ =")
     return re.sub(r"([\d.]+)e-0?(\d+)", r"$\1\\times10^{-\2}$", text)

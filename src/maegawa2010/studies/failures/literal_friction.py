@@ -1,8 +1,7 @@
-"""Eq. 4 taken literally, in the steps of RK4: a block that has once slid never sticks
-again.
+"""Eq. 4 taken literally, in steps of RK4: a block that has slid never sticks again.
 
-It rests only at a velocity of exactly zero, and one that crosses zero between two
-evaluations never has it.
+By Eq. 4 a block sticks only if its velocity is exactly zero, and a velocity that crosses
+zero between two evaluations is never exactly zero.
 """
 
 import math
@@ -33,7 +32,7 @@ compiled = entry(Path(__file__), FOLDER, **OPTIONS)
 
 @inner
 def as_printed(system, _state, i, net, velocity):
-    """The law of friction (Eqs. 4-6)."""
+    """The friction law of Eqs. 4-6: velocity and acceleration of block i."""
     if velocity == 0.0:
         held = min(max(net, -system[STRENGTH, i]), system[STRENGTH, i])
         return 0.0, system[INVERSE_MASS, i] * (net - held)
@@ -43,7 +42,7 @@ def as_printed(system, _state, i, net, velocity):
 
 @compiled
 def slide(system, state, h, n_steps):
-    """Make n steps of the whole chain."""
+    """Make `n_steps` steps of h [s] of the whole chain."""
     n = state.shape[1] - 2
     work = np.zeros((STAGES + 1, 2, n + 2))
     for _ in range(n_steps):
@@ -51,7 +50,7 @@ def slide(system, state, h, n_steps):
 
 
 def literal_friction() -> list[Curve]:
-    """F_X of the exact solution and of RK4 under Eq. 4 as printed."""
+    """F_X of the exact solution, and of RK4 with Eq. 4 taken literally."""
     chain = Chain.from_slider()
     run = simulate(chain, END)
     exact_times = np.concatenate([[0.0], run.transitions["time"], [END]])

@@ -1,4 +1,4 @@
-"""Two roots of an event function in one step, both of which are missed."""
+"""An event function with two roots in one step, both of which a solver misses."""
 
 from functools import partial
 from typing import Any
@@ -9,23 +9,23 @@ from scipy.integrate import solve_ivp
 from maegawa2010.methods.events import NUDGE, EventMotion
 from maegawa2010.methods.scipy_events import solve_scipy
 from maegawa2010.studies.failures.common import Curve
-from precursors.analysis.events import transitions_right
+from precursors.analysis.agreement import transitions_right
 from precursors.model.chain import Chain
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
-# At the loose tolerance DOP853 steps over two roots of a velocity.
+# At the loose relative tolerance DOP853 steps over two roots of a velocity.
 LOOSE = 1e-7
 TIGHT = 1e-10
 
 
 def motion_after(run: Run, number: int) -> EventMotion:
-    """The motion of an exact run from its transition of this number (from 1) on."""
+    """The motion of an exact run after its transition of this number (counted from 1)."""
     chain = run.chain
     motion = EventMotion(chain, run.duration, None)
     modes = np.zeros(chain.n_blocks)
     done = run.transitions[:number]
-    modes[done["block"] - 1] = done["mode"]  # the last one of each block
+    modes[done["block"] - 1] = done["mode"]  # the last mode of each block
     time, block, mode, _ = run.transitions[number - 1].tolist()
     velocities = run.at([time])[1][0] * chain.mass / motion.tau
     velocities[block - 1] = mode * NUDGE
@@ -34,12 +34,12 @@ def motion_after(run: Run, number: int) -> EventMotion:
 
 
 def missed_roots() -> list[Curve]:
-    """DOP853 steps over two roots of a velocity: a block's stop is not seen."""
+    """DOP853 steps over two roots of a velocity, and a block does not stop."""
     chain = Chain.from_slider()
     exact = simulate(chain, 10.0, "global slip")
     wrong = transitions_right(solve_scipy(chain, 10.0, LOOSE, "global slip").run, exact)
-    # The motion up to three times as long as the true one, from the last right
-    # transition on.
+    # The motion from the last right transition on, for three times as long as it really
+    # lasts.
     column = chain.n_blocks + int(exact.transitions["block"][wrong]) - 1
     motion = motion_after(exact, wrong)
     span = 3.0 * float(exact.intervals[wrong]) / motion.tau

@@ -1,4 +1,4 @@
-"""Failure modes of the methods on the paper's chain, each shown by measured curves."""
+"""Failure modes of the methods on the paper's chain, each as measured curves."""
 
 from collections.abc import Callable
 
@@ -14,7 +14,7 @@ from maegawa2010.studies.failures.literal_friction import literal_friction
 from maegawa2010.studies.failures.missed_roots import missed_roots
 from maegawa2010.studies.failures.regularised_friction import creep
 
-# By name, in the order of the gallery.
+# Functions that measure the curves, by name, in the order of the gallery.
 FAILURE_MODES: dict[str, Callable[[], list[Curve]]] = {
     measure.__name__: measure
     for measure in (
@@ -29,10 +29,7 @@ FAILURE_MODES: dict[str, Callable[[], list[Curve]]] = {
 
 
 def failure_curves() -> pd.DataFrame:
-    """The points of all failure modes.
-
-    A row is a point: failure_mode, curve, role (see `common.Curve`), x, y.
-    """
+    """The points of all curves: failure_mode, curve, role (see `common.Curve`), x, y."""
     curves = [
         pd.DataFrame(
             {

@@ -1,4 +1,4 @@
-"""The chains of the configuration that are proved, and what their certificates say."""
+"""The configuration's chains with a proof, and the numbers of their certificates."""
 
 import math
 from collections.abc import Mapping
@@ -10,17 +10,17 @@ from precursors.model.chain import Chain
 from precursors.proof.certificate import Certificate
 from precursors.proof.exact_chain import ExactChain
 
-# Duration of a proof [s] where the configuration has none.
+# Default duration of a proof [s].
 PROVED_FOR = 10.0
 
 
 def exact_chain(name: str, values: Mapping[str, Any]) -> ExactChain:
-    """A chain of the configuration's `horizon.proved`, from the values it states.
+    """A chain of the configuration's `horizon.proved`, from its values there.
 
     Raises
     ------
     ValueError
-        If they are not those of a slider.
+        If a value is wrong.
     """
     slider = {key: x for key, x in values.items() if key != "duration"}
     try:
@@ -36,7 +36,7 @@ def chain_duration(values: Mapping[str, Any]) -> float:
 
 
 def scene_exact_chain(config: Mapping[str, Any], name: str) -> ExactChain:
-    """Return the chain of a scene of the configuration; theta from load cells is not
+    """The exact chain of a scene of the configuration; theta from load cells is not
     rounded (Sect. 5.2).
 
     Raises
@@ -52,8 +52,8 @@ def scene_exact_chain(config: Mapping[str, Any], name: str) -> ExactChain:
 
 
 def is_about(certificate: Certificate, chain: ExactChain, duration: float) -> bool:
-    """Whether a certificate is about all of the run of a chain from rest, for
-    `duration` [s]."""
+    """Whether a certificate is about the whole run of a chain from rest for `duration`
+    [s]."""
     return (
         certificate.chain == chain
         and certificate.duration == Fraction(repr(duration))
@@ -63,7 +63,7 @@ def is_about(certificate: Certificate, chain: ExactChain, duration: float) -> bo
 
 
 def certificate_row(certificate: Certificate) -> dict[str, float]:
-    """Row of certificates.csv: numbers of a proof."""
+    """Numbers of a proof: a row of certificates.csv."""
     return {
         "proved_until_s": float(certificate.proved_until),
         "transitions": len(certificate.transitions),
@@ -76,7 +76,7 @@ def certificate_row(certificate: Certificate) -> dict[str, float]:
 
 
 def least_slopes(certificate: Certificate) -> dict[str, float]:
-    """Least proved slopes of all releases and of all stops and turns; NaN of none."""
+    """Smallest proved slopes of all releases, and of all stops and turns; NaN if none."""
     releases: list[float] = []
     stops: list[float] = []
     mode: dict[int, int] = {}

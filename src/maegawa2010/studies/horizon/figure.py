@@ -1,4 +1,4 @@
-"""Predictability time: how the errors of a run grow."""
+"""Figure: growth of the errors of a run, actual and predicted."""
 
 from collections.abc import Mapping
 
@@ -10,7 +10,7 @@ from precursors.figures import style
 HEIGHT_MM = 60.0
 ERROR_RANGE = (1e-19, 1e-7)
 FINDING = "Every error is smaller than the run itself predicts"
-# Column of the errors, its words, and where they stand in the panel.
+# By column: colour, label, and position of the label in the panel.
 ERRORS = {
     "predicted_error_s": (style.GREY, "predicted by the run", (0.04, 0.58)),
     "actual_error_s": (style.BLACK, "actual, against the proof", (0.3, 0.16)),
@@ -18,10 +18,10 @@ ERRORS = {
 
 
 def draw(errors: pd.DataFrame, thetas: Mapping[str, float], tolerance: float) -> Figure:
-    """Draw the largest error so far of the times of transitions, a panel for each chain
-    of `thetas`.
+    """Draw the largest error of a transition's time so far, a panel for each chain of
+    `thetas`.
 
-    The table is horizon.csv. A dotted line is the `tolerance` [s].
+    `errors` is horizon.csv. A dotted line marks the `tolerance` [s].
     """
     shown = errors[errors["chain"].isin(thetas)]
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:

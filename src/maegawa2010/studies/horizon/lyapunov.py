@@ -1,9 +1,8 @@
-"""The largest Lyapunov exponent of a chain: how fast two nearly equal runs come
-apart.
+"""The largest Lyapunov exponent of a chain: how fast two nearly equal runs diverge.
 
-A difference is measured at the onset of each slip event, when all blocks rest: there it
-is one of spring forces alone. A shift in time, or of all blocks with the drive, neither
-grows nor decays and is not in it.
+The difference is measured between slip events, when all blocks rest and the runs differ
+in spring forces only. It does not include a shift in time, or of all blocks with the
+drive, which neither grows nor decays.
 """
 
 from collections.abc import Mapping
@@ -14,29 +13,29 @@ import numpy as np
 import pandas as pd
 import scipy
 
-from precursors.analysis.events import slip_events
+from precursors.analysis.slips import slip_table
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.statics import positions_from_compressions
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
 COLUMNS = ("exponent_per_s", "uncertainty_per_s", "events")
-# Uncertainties come from means over so many stretches of the run.
+# Uncertainties are estimated from means over this many stretches of the run.
 N_STRETCHES = 20
 CONFIDENCE = 0.95
-# Part of the run left out at its start, before stick-slip has become steady.
+# Share of the run left out at its start, before stick-slip is steady.
 TRANSIENT = 0.1
 SEED = 2010
-# Distance of two runs in units of mu_s F_Z: far above rounding, and so small that it
-# grows linearly.
+# Initial distance of the two runs in units of mu_s F_Z: far above rounding, and small
+# enough to grow linearly.
 DISTANCE = 1e-9
-# A distance that shrinks to less than this in one event is lost in rounding.
+# A distance that shrinks by more than this factor in one event is lost in rounding.
 LEAST = 1e-4
 
 
 def lyapunov_exponent(run: Run) -> dict[str, float]:
-    """Largest Lyapunov exponent of a run, from the distance of a second one (Benettin
-    et al. 1980).
+    """Largest Lyapunov exponent of a run, from its distance to a second run (Benettin et
+    al. 1980).
 
     A run in double precision follows the exact one only for a while. After that it is
     another typical run, which is enough for a mean.
@@ -44,24 +43,25 @@ def lyapunov_exponent(run: Run) -> dict[str, float]:
     Returns
     -------
     dict
-        exponent_per_s; uncertainty_per_s, half the width of its 95 % confidence
-        interval, from the means over stretches of equally many events by Student's t;
-        and the number of these events.
+        exponent_per_s; uncertainty_per_s, half the width of its 95 % confidence interval
+        by Student's t, from the means over stretches of equally many events; and events,
+        the number of events in all stretches.
 
     Raises
     ------
     ValueError
-        If the run has fewer events than stretches, or all differences die out (one
-        block: every event ends in the same state).
+        If the run has fewer events than stretches, or all differences die out, as with
+        one block, whose slips all end in the same state.
     """
     onset_s, growth = _growth(run)
-    kept = np.arange(int(TRANSIENT * len(onset_s)), len(onset_s))
-    n_each = (len(kept) - 1) // N_STRETCHES
+    steady = np.arange(int(TRANSIENT * len(onset_s)), len(onset_s))
+    n_each = (len(steady) - 1) // N_STRETCHES
     if n_each < 1:
         raise ValueError(
-            f"the run must have more than {N_STRETCHES} slip events after its transient, but has {len(kept)}"
+            f"the run must have more than {N_STRETCHES} slip events after its transient,"
+            f" but has {len(steady)}"
         )
-    ends = kept[-1] - n_each * np.arange(N_STRETCHES, -1, -1)
+    ends = steady[-1] - n_each * np.arange(N_STRETCHES, -1, -1)
     log = np.diff(growth[ends])
     seconds = np.diff(onset_s[ends])
     rate = log.sum() / seconds.sum()
@@ -72,17 +72,18 @@ def lyapunov_exponent(run: Run) -> dict[str, float]:
 
 
 def _growth(run: Run) -> tuple[FloatArray, FloatArray]:
-    """Onset of each event [s], and the logarithm of how far a difference has grown.
+    """Onset of each event [s], and the logarithm of the growth of a difference so far.
 
-    Between two events the chain rests, and the drive changes nothing but the force in
-    its own spring. So the forces in the others say what will happen. From one rest to
-    the next a second run starts `DISTANCE` beside the run; how far it is off then is
-    the growth, and the direction in which it is off is the next start.
+    Between two events the chain rests, and the drive changes only the force in its own
+    spring, so the forces in the other springs determine the future. In each of these
+    rests a second run starts at `DISTANCE` from the run. Its distance in the next rest
+    gives the growth, and its direction there is the direction of the next start.
     """
     chain = run.chain
-    events = slip_events(run)
-    finished = events[np.isfinite(events["end_s"])]
-    rests = (finished["end_s"][:-1] + finished["onset_s"][1:]) / 2.0
+    onset, end = (
+        slip_table(run).dropna(subset="end_s")[["onset_s", "end_s"]].to_numpy().T
+    )
+    rests = (end[:-1] + onset[1:]) / 2.0
     forces = run.spring_forces(rests)
     distance = DISTANCE * chain.strength.sum()
     direction = np.random.default_rng(SEED).standard_normal(chain.n_blocks - 1)
@@ -102,14 +103,14 @@ def _growth(run: Run) -> tuple[FloatArray, FloatArray]:
                 f"all differences die out within {span:g} s: N = {chain.n_blocks}"
             )
         growth.append(np.log(factor))
-    return finished["onset_s"][2:], np.cumsum(growth)
+    return onset[2:], np.cumsum(growth)
 
 
 def lyapunov_table(
     sliders: Mapping[str, Mapping[str, Any]], duration: float
 ) -> pd.DataFrame:
-    """One row a scene, from a run of `duration` [s]; NaN where it has no exponent (one
-    block, few events)."""
+    """One row per scene, from a run of `duration` [s]; NaN if it has no exponent (one
+    block, or few events)."""
     rows = []
     for scene, slider in sliders.items():
         row = {"scene": scene, "theta": slider["theta"]}

@@ -1,5 +1,4 @@
-"""The solver compared with the proof: the errors it makes, and the errors it
-predicts."""
+"""Compare the solver with proofs: its actual errors, and the errors that it predicts."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -14,7 +13,7 @@ from precursors.proof import Certificate
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
-# Rows of a chain's error table, at most.
+# Largest number of rows for a chain in the table of errors.
 ROWS = 400
 
 
@@ -29,8 +28,8 @@ class Validation(NamedTuple):
 def proof_tables(
     certificates: Mapping[str, Certificate], tolerance: float
 ) -> dict[str, pd.DataFrame]:
-    """Proofs, growth of the solver's errors, and transitions it gets right: tables by
-    file name."""
+    """Tables by file name: the proofs, the growth of the solver's errors, and its
+    accuracy."""
     runs = {name: validate(certificate) for name, certificate in certificates.items()}
     errors = [error_table(run).assign(chain=name) for name, run in runs.items()]
     return {
@@ -48,8 +47,8 @@ def proof_tables(
 
 
 def validate(certificate: Certificate) -> Validation:
-    """Run the chain of a certificate, rounded to double precision, as far as it is
-    proved, and compare."""
+    """Simulate the chain of a certificate, rounded to double precision, over the proved
+    duration, and compare the run with the proof."""
     truth = Truth.proved(certificate)
     start = [float(x) for x in certificate.start_positions]
     run = simulate(truth.run.chain, truth.run.duration, start_positions=start)
@@ -57,8 +56,8 @@ def validate(certificate: Certificate) -> Validation:
 
 
 def largest_errors(validation: Validation) -> pd.DataFrame:
-    """Largest error so far at each transition, actual and predicted; NaN where order is
-    unknown."""
+    """Largest error so far at each transition, actual and predicted; NaN where the order
+    of transitions is unknown."""
     run, compared, predictions = validation
     errors = pd.DataFrame(
         {
@@ -71,7 +70,7 @@ def largest_errors(validation: Validation) -> pd.DataFrame:
 
 
 def error_table(validation: Validation) -> pd.DataFrame:
-    """The same at up to `ROWS` transitions."""
+    """`largest_errors` at up to `ROWS` transitions."""
     errors = largest_errors(validation)
     return errors.iloc[np.unique(np.linspace(0, len(errors) - 1, ROWS).astype(int))]
 
@@ -79,9 +78,10 @@ def error_table(validation: Validation) -> pd.DataFrame:
 def summary(validation: Validation, tolerance: float) -> dict[str, float]:
     """Accuracy of the run, a row of solver_vs_proof.csv.
 
-    `right_until_s` is when the first transition is in error by more than the tolerance,
-    of another block, or to another mode; `horizon_s` is when this is predicted.
-    `largest_ratio` is that of actual to predicted error, both the largest so far.
+    `right_until_s` is the time of the first transition with an error above the tolerance
+    [s], with another block, or with another mode; `horizon_s` is the predicted time of
+    this. `largest_ratio` is the largest ratio of actual to predicted error, both the
+    largest so far.
     """
     run, compared, predictions = validation
     errors = largest_errors(validation)

@@ -1,54 +1,62 @@
 """The quasi-static chain: slips are cascades from one state of rest to the next,
 without inertia or time.
 
-The load grows until block 1 reaches its strength. Then a set of blocks moves at once.
-With B the stiffness matrix of the chain, g_i the net force of the springs on block i
-and s_i the direction of its slip, the blocks S of the set would be in balance with
+The load grows until block 1 reaches its limit mu_s w_1. Then a set of blocks moves at
+once. B is the stiffness matrix of the chain, g_i the net force of the springs on block i,
+and s_i the direction of its slip. The blocks S of the set would be in balance with
 kinetic friction after the displacements
 
     u* = B_SS^-1 (g - s mu_k w)_S,
 
-and they move by (1 + overshoot) u*. A block at rest that this pushes beyond mu_s w
-joins the set, which then moves anew from where it began. One that would move against
-its direction once it has joined is put out again, and so is one that began the slip
-where no other does. When no block joins, all stop. Those whose net force then exceeds
-mu_s w begin a further stage of the same event. Without time, "all blocks at the same
-instant" has no meaning: a global slip is an event in which every block slides.
+and they move by (1 + overshoot) u*. A resting block that this loads beyond mu_s w joins
+the set, and the motion of the larger set is computed again from its start. A block that
+would move against its direction leaves the set for good: first those that joined it, and
+if there are none, those that began the slip. When no block joins, all stop. Blocks whose
+net force then exceeds mu_s w begin a further stage of the same event. Without time, "all
+blocks at the same instant" has no meaning: here a global slip is an event in which every
+block slides.
 
-Two values of the overshoot have a meaning:
+Two values of the overshoot have a physical meaning:
 
-* overshoot = 1 ("quasistatic"). On the straight line through u*, the elastic energy set
-  free equals the friction heat again at 2 u*. The set has no kinetic energy left there,
-  so it stops. Its net forces are mirrored about mu_k w. For one block this is the exact
-  slip, 2 (mu_s - mu_k) w / (k + K).
-* overshoot = 0 ("overdamped"). All kinetic energy is lost on the way: the limit of a
-  slip that is damped at every instant. Which set moves does not depend on the order in
-  which blocks join it.
+* overshoot = 1 ("quasistatic"). On the straight line through u*, the released elastic
+  energy equals the friction heat again at 2 u*. There the set has no kinetic energy
+  left, so it stops, and its net forces are mirrored about mu_k w. For one block this is
+  the exact slip, 2 (mu_s - mu_k) w / (k + K).
+* overshoot = 0 ("overdamped"). All kinetic energy is lost on the way: the limit of
+  strong damping. The moving set does not depend on the order in which blocks join it.
 """
 
 import math
+from enum import IntEnum
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from precursors.analysis.events import SLIP, Slip
+from precursors.analysis.slips import SLIP, Slip, rows_of
 from precursors.model.chain import Chain, FloatArray
 from precursors.support.compiled import entry
 
 ENERGY_CONSERVED = 1.0
 OVERDAMPED = 0.0
 MAX_EVENTS = 1_000_000
-MAX_STAGES = 100_000  # of one event, each with less elastic energy than the one before
-ROUNDING = 1e-12  # of F_Z: a block that far beyond its strength still rests
-BEGAN, JOINED, PUT_OUT = range(3)
+MAX_STAGES = 100_000  # of one event; each stage lowers the elastic energy
+ROUNDING = 1e-12  # of F_Z; a block this far beyond its limit still rests
 
 compiled = entry(Path(__file__), error_model="numpy")
 
 
+class Part(IntEnum):
+    """A block's part in a stage; of the blocks that turn round, the highest leave first."""
+
+    BEGAN = 0
+    JOINED = 1
+    LEFT = 2
+
+
 class Cascade(NamedTuple):
-    """A chain as the compiled functions take it."""
+    """The parameters of a chain, for compiled functions."""
 
     springs: FloatArray
     limit: FloatArray  # force beyond which a block does not rest [N]
@@ -59,12 +67,12 @@ class Cascade(NamedTuple):
 def quasistatic_slips(
     chain: Chain, overshoot: float = ENERGY_CONSERVED
 ) -> NDArray[np.void]:
-    """Slip events of the quasi-static chain, from rest to its first global slip: an
-    array of dtype SLIP.
+    """Slip events of the quasi-static chain from rest to its first global slip, in the
+    format of `slip_events`.
 
-    An event ends when it begins; `n_simultaneous` is the largest set that moves.
+    Events have no duration; `n_simultaneous` is the size of the largest set that moves.
     `overshoot` is how far the blocks move beyond the balance with kinetic friction,
-    from 0 (all kinetic energy is lost) to 1 (none is).
+    from 0 (all kinetic energy is lost) to 1 (none is lost).
 
     Raises
     ------
@@ -120,17 +128,16 @@ def quasistatic_slips(
             )
         )
         if slips[-1].is_global:
-            return np.array(slips, SLIP)
+            return rows_of(np.array(slips, SLIP), chain)
     raise RuntimeError(f"no global slip within {MAX_EVENTS} events")
 
 
 @compiled
 def slip_of_event(cascade, net, max_stages):
-    """Displacements [m] of one event that block 1 begins, and the largest set that
-    moves at once.
+    """Displacements [m] of one event that block 1 begins, and the size of the largest
+    set that moves at once, or 0 if the event does not come to rest.
 
-    `net` [N] becomes what it is after the event. The set is 0 if the event does not
-    come to rest.
+    `net` [N] is updated to the net forces after the event.
     """
     at_once = 0
     slip = np.zeros_like(net)
@@ -152,36 +159,36 @@ def slip_of_event(cascade, net, max_stages):
 @compiled
 def beyond_strength(cascade, net, i):
     """Direction in which a net force [N] moves block i, or 0 if static friction holds
-    it."""
+    the block."""
     return math.copysign(1.0, net) if abs(net) > cascade.limit[i] else 0.0
 
 
 @compiled
 def slip_of_stage(cascade, net, direction):
-    """Displacements [m] of the set that `direction` begins, once no block joins or
-    leaves it."""
+    """Displacements [m] of one stage: the set of blocks in `direction` moves, after
+    blocks have joined and left it."""
     n = net.shape[0]
-    state = np.zeros(n, np.int64)
+    part = np.zeros(n, np.int64)
     while True:
         step = balance(cascade, net, direction)
-        leaves = -1  # blocks in this state that turn round
+        leaves = -1  # the highest part of the blocks that turn round
         for i in range(n):
             step[i] *= cascade.reach
             if step[i] * direction[i] < 0.0:
-                leaves = max(leaves, state[i])
+                leaves = max(leaves, part[i])
         if leaves >= 0:
             for i in range(n):
-                if step[i] * direction[i] < 0.0 and state[i] == leaves:
+                if step[i] * direction[i] < 0.0 and part[i] == leaves:
                     direction[i] = 0.0
-                    state[i] = PUT_OUT
+                    part[i] = Part.LEFT
             continue
         lost = lost_force(cascade.springs, step)
         joins = False
         for i in range(n):
-            if direction[i] == 0.0 and state[i] != PUT_OUT:
+            if direction[i] == 0.0 and part[i] != Part.LEFT:
                 direction[i] = beyond_strength(cascade, net[i] - lost[i], i)
                 if direction[i] != 0.0:
-                    state[i] = JOINED
+                    part[i] = Part.JOINED
                     joins = True
         if not joins:
             return step
@@ -189,8 +196,8 @@ def slip_of_stage(cascade, net, direction):
 
 @compiled
 def balance(cascade, net, direction):
-    """Displacements u* [m] that put the moving blocks in balance with friction (Thomas'
-    algorithm)."""
+    """Displacements u* [m] after which the moving blocks are in balance with kinetic
+    friction (Thomas algorithm)."""
     n = net.shape[0]
     ratio = np.zeros(n)
     solved = np.zeros(n)
@@ -199,7 +206,7 @@ def balance(cascade, net, direction):
         if direction[i] != 0.0:
             behind = cascade.springs[i]
             ahead = cascade.springs[i + 1] if i + 1 < n else 0.0
-            # A block that rests has the ratio and the solution 0.
+            # For a resting block, ratio and solution stay 0.
             pivot = behind + ahead - (behind * ratio[i - 1] if i > 0 else 0.0)
             force = net[i] - direction[i] * cascade.friction[i]
             solved[i] = (force + (behind * solved[i - 1] if i > 0 else 0.0)) / pivot
@@ -211,8 +218,7 @@ def balance(cascade, net, direction):
 
 @compiled
 def lost_force(springs, step):
-    """Forces [N] by which displacements [m] lower the net forces of the springs on the
-    blocks."""
+    """Decrease of the springs' net forces on the blocks [N] by displacements [m]."""
     lost = np.empty_like(step)
     ahead = 0.0
     for i in range(step.shape[0] - 1, -1, -1):

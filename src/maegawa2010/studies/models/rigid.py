@@ -1,7 +1,6 @@
 """The rigid slider (N = 1): stick-slip of one block driven through K, in closed form.
 
-It is released at the largest load of a state of rest, so that mu_sapp = mu_s (Sect.
-6.2).
+It slips at the largest load of a state of rest, so mu_sapp = mu_s (Sect. 6.2).
 """
 
 import math
@@ -14,7 +13,7 @@ from precursors.model.statics import load_bound
 
 
 def load_drop(chain: Chain) -> float:
-    """Fall of the tangential load in each slip, 2 (mu_s - mu_k) F_Z [N], at any drive
+    """Drop of the tangential load in each slip, 2 (mu_s - mu_k) F_Z [N], at any drive
     velocity."""
     return 2.0 * (chain.mu_s - chain.mu_k) * chain.normal_load
 
@@ -27,8 +26,8 @@ def frequency(chain: Chain) -> float:
 def rigid_slip_duration(chain: Chain) -> float:
     """Duration of each slip [s]: (pi + 2 atan(2 K V / (omega drop))) / omega.
 
-    From the release on, x' = V (1 - cos(omega t)) + (drop / 2) (omega / K) sin(omega
-    t), which is zero again where tan(omega t / 2) = -omega drop / (2 K V).
+    After the release x' = V (1 - cos(omega t)) + (drop / 2) (omega / K) sin(omega t),
+    which is zero again when tan(omega t / 2) = -omega drop / (2 K V).
     """
     omega = frequency(chain)
     return (
@@ -37,7 +36,7 @@ def rigid_slip_duration(chain: Chain) -> float:
 
 
 def answers(chain: Chain) -> dict[str, Any]:
-    """All answers of the model."""
+    """All answers of the model, by quantity."""
     return {
         "first_load": load_bound(chain),
         "events_counted": 1,

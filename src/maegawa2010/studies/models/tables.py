@@ -1,5 +1,5 @@
-"""Compare the models: what each answers, how far from the paper's chain, and at what
-cost."""
+"""Compare the models: their answers, the errors against the paper's chain, and the
+computing times."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -9,30 +9,39 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from maegawa2010.studies.models.models import MODELS, PAPERS_MODEL, UNITS, Model
+from maegawa2010.studies.models.answers import MODELS, PAPERS_MODEL, UNITS, Model
 from maegawa2010.support import timing
 from maegawa2010.support.run_statistics import NOISE
 from precursors.model.chain import Chain, FloatArray
 
-# Of runs with noise in the normal loads: the seed, and how many runs.
+# Runs with noise in the normal loads: seed, and number of runs.
 SEED = 2014
 DRAWS = 200
-# how often a model is timed, and for how long at least [s]
+# Rounds of timing, and the least time of a model in each [s].
 ROUNDS = 3
 SHORTEST = 0.003
 
 
 @dataclass(frozen=True)
 class Question:
-    """One question to all models.
+    """A question to all models.
 
-    `error` (answer, answer of the paper's chain, chain) is their distance, in units of
-    `error_unit`; up to the `tolerance` it counts as an answer. `shown` is one number
-    that stands for the answer in the table. `quantiles` are asked of runs with noise in
-    the normal loads: one run of the chain at theta = 5/6 is a draw of many, and no
-    measure of a model. The last one is shown, and the largest of their errors counts.
-    `quantity` is that of the models, where it is not
-    the name of the question.
+    Attributes
+    ----------
+    tolerance
+        A model answers the question if its error is at most this.
+    error
+        Function of an answer, the answer of the paper's chain, and the chain.
+    error_unit
+        Unit of the error and of the tolerance.
+    shown
+        One number that represents the answer in the table.
+    quantiles
+        If there are any, the answers are these quantiles over runs with noise in the
+        normal loads, because a single run is one draw of many. The table has the last
+        quantile, and the largest of their errors.
+    quantity
+        The quantity of the models, if it is not the name of the question.
     """
 
     tolerance: float
@@ -44,31 +53,31 @@ class Question:
 
 
 def relative(answer: Any, exact: Any, chain: Chain) -> Any:
-    """Error relative to the paper's chain."""
+    """Error relative to the answer of the paper's chain."""
     return abs(answer - exact) / abs(exact)
 
 
 def difference(answer: Any, exact: Any, chain: Chain) -> Any:
-    """Error as it stands."""
+    """Absolute error."""
     return abs(answer - exact)
 
 
 def load_error(answer: FloatArray, exact: FloatArray, chain: Chain) -> float:
-    """Root mean square of the errors of some loads, over F_Z."""
+    """Root mean square error of loads, over F_Z."""
     return float(np.sqrt(np.mean(np.square(answer - exact)))) / chain.normal_load
 
 
 QUESTIONS = {
-    "first_load": Question(1e-6, relative),  # a formula is right to rounding
-    # The paper counts whole events by eye.
+    "first_load": Question(1e-6, relative),  # rounding errors only
+    # The paper's authors counted events by eye.
     "events_counted": Question(1, difference, "events", quantiles=(0.5,)),
-    # A fifth of (mu_s - mu_k)/mu_k: it tells the models from mu_k and from mu_s.
+    # Small beside (mu_s - mu_k)/mu_k = 0.56, so that neither mu_k nor mu_s is an answer.
     "mu_sapp": Question(0.05, relative, quantiles=(0.5,)),
     "mu_sapp_band": Question(
         0.05, relative, quantiles=(0.05, 0.95), quantity="mu_sapp"
     ),
     "front_loads": Question(
-        0.02,  # 8 N, less than a step from one block to the next of ten
+        0.02,  # 8 N, less than the step from one of ten blocks to the next
         load_error,
         shown=lambda loads: float(loads[(len(loads) - 1) // 2]),  # at the middle
     ),
@@ -82,19 +91,19 @@ def compare_models(
     models: Mapping[str, Model] = MODELS,
     rounds: int = ROUNDS,
 ) -> pd.DataFrame:
-    """Ask every model every question it answers, for the sliders of some scenes.
+    """Compare the answers of all models to all questions, for the sliders of scenes.
 
-    `models` go from the smallest to the largest, the paper's chain among them; `rounds`
-    is how often each is timed.
+    `models` are sorted from the smallest to the largest and include the paper's chain;
+    `rounds` is how often each is timed.
 
     Returns
     -------
     DataFrame
-        One row for each scene, question and model that answers it: value and its unit
-        (of runs with noise where the question has quantiles), error against the paper's
-        chain, tolerance, is_answer (the error is within it), is_smallest (the first
-        model that answers in every scene), and cost_s (median time of all the model's
-        answers [s]).
+        One row for each scene, question and model with such a quantity: value and its
+        unit (of runs with noise if the question has quantiles), error against the
+        paper's chain, tolerance, is_answer (the error is within the tolerance),
+        is_smallest (the first model that answers in every scene), and cost_s (median
+        time of all the model's answers [s]).
     """
     chains = {scene: Chain.from_slider(**slider) for scene, slider in sliders.items()}
     tasks = {
@@ -134,7 +143,7 @@ def compare_models(
 
 
 def noisy_answers(model: Model, chain: Chain) -> dict[Any, Any]:
-    """Answers about chains with noise in the normal loads, the same for all models."""
+    """Answers for chains with noise in the normal loads, the same chains for all models."""
     random = np.random.default_rng(SEED)
     noises = NOISE * random.uniform(-1.0, 1.0, (DRAWS, chain.n_blocks))
     drawn = [
@@ -146,8 +155,8 @@ def noisy_answers(model: Model, chain: Chain) -> dict[Any, Any]:
 def value_and_error(
     question: Question, answer: Any, exact: Any, chain: Chain
 ) -> tuple[float, float]:
-    """Value of an answer, and its error against that of the paper's chain; where the
-    question has quantiles, both are samples of runs."""
+    """Value of an answer, and its error against the paper's chain; if the question has
+    quantiles, both answers are samples."""
     if not question.quantiles:
         return question.shown(answer), question.error(answer, exact, chain)
     value, expected = (
@@ -157,8 +166,8 @@ def value_and_error(
 
 
 def with_smallest(table: pd.DataFrame) -> pd.DataFrame:
-    """Mark for each question the smallest model that answers it in every scene; models
-    are in order."""
+    """Mark the smallest model that answers each question in every scene; models are
+    sorted from the smallest."""
     answers = table.groupby(["question", "model"])["is_answer"].transform("all")
     smallest = table[answers].groupby("question")["model"].first()
     return table.assign(is_smallest=table["model"] == table["question"].map(smallest))

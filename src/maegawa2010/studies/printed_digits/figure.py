@@ -1,5 +1,4 @@
-"""The finding in one picture: the paper's six numbers come out, and they are one draw of
-many."""
+"""Figure: the paper's six numbers are reproduced, and they are one draw of many."""
 
 from collections.abc import Sequence
 
@@ -13,9 +12,9 @@ from precursors.figures import precursor_lengths, style
 from precursors.figures.style import Options
 
 HEIGHT_MM = 78.0
-WIDTH = 0.3  # of a bar, of which those of three loadings stand beside each other
+WIDTH = 0.3  # of a bar; bars of the three loadings stand side by side
 TITLE: Options = {"fontsize": 8.6, "fontweight": "bold", "loc": "left"}
-OTHER = 0.4  # share of the colour where the count is not the paper's
+OTHER = 0.4  # share of the colour of bars with another count than the paper's
 
 
 def draw(
@@ -24,12 +23,12 @@ def draw(
     digits: pd.DataFrame,
     all_six: pd.Series,
 ) -> Figure:
-    """Draw Fig. 13, and beside it how often runs with noise in the loads, and sliders
-    with the same printed inputs, have so many events.
+    """Draw Fig. 13, and beside it the distribution of the count of events: of runs with
+    noise in the loads, and of sliders with the same printed inputs.
 
-    `noise` and `digits` are noise_members.csv and digits_members.csv, whose draw 0 of a
-    scene is the slider with the printed digits, and `all_six` is the row of digits.csv
-    that says how many sliders have all six numbers.
+    `noise` and `digits` are noise_members.csv and digits_members.csv; draw 0 is the
+    slider with the printed digits. `all_six` is the row of digits.csv that says how many
+    sliders have all six numbers.
     """
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         panels = figure.subplot_mosaic("LN;LD")
@@ -66,8 +65,8 @@ def draw(
 
 
 def _draw_counts(axes: Axes, members: pd.DataFrame) -> str:
-    """Draw the shares of runs with so many events, a colour for each loading; return
-    those with the paper's number in words [%]."""
+    """Draw the distribution of the count of events, a colour for each loading; return
+    the shares with the paper's count in words [%]."""
     shares = []
     for scene, own in members.groupby("scene", sort=False):
         sign = int(np.sign(own.loc[own["draw"] == 0, "theta"].iloc[0]))

@@ -1,5 +1,5 @@
-"""The paper's numbers over all sliders with the same printed inputs: mu_s = 0.70 is
-anything from 0.695 to 0.705."""
+"""The paper's numbers for random sliders whose inputs round to the printed ones:
+mu_s = 0.70 stands for any value from 0.695 to 0.705."""
 
 from collections.abc import Iterable, Mapping
 from typing import Any
@@ -10,9 +10,9 @@ import pandas as pd
 from maegawa2010.studies.members import TOLERANCES, Study, gather, stack
 from maegawa2010.support.run_statistics import nine_tenths, share_interval
 
-# Half a unit of the last digit that the paper prints (Sect. 4 and the captions of Figs.
-# 10-12), in SI units. F_Z only scales all forces. S and L enter through k alone, whose
-# last digit is that of E.
+# Half a unit of the last printed digit (Sect. 4 and the captions of Figs. 10-12), in SI
+# units. F_Z is left out because it only scales all forces; S and L because they enter
+# only through k, which E varies.
 HALF_A_DIGIT = {
     "mu_s": 0.005,
     "mu_k": 0.005,
@@ -31,8 +31,8 @@ def digits_study(
     duration: float,
     settings: Mapping[str, Any],
 ) -> Study:
-    """Sliders with the same printed inputs. Draw i is the same slider in each scene, draw 0 is the
-    scene as it is."""
+    """Random sliders with the same printed inputs. Draw i is the same slider in each
+    scene; draw 0 is the scene itself."""
     random = np.random.default_rng(settings["seed"])
     changes = {
         key: half * random.uniform(-1, 1, settings["draws"])
@@ -45,7 +45,7 @@ def digits_study(
             key: np.append(slider[key], printed[key] + change)
             for key, change in changes.items()
         }
-        # A slower drive takes longer to the same load.
+        # A slower drive takes longer to reach the same load.
         slowest = 1 - HALF_A_DIGIT["drive_velocity"] / slider["drive_velocity"]
         labels = {
             "scene": scene,
@@ -67,19 +67,18 @@ def digits_tables(
 def digits_table(
     members: pd.DataFrame, paper: Mapping[str, Mapping[str, float]]
 ) -> pd.DataFrame:
-    """Ranges of each number over all sliders with the printed digits.
+    """How often sliders with the same printed inputs have the paper's numbers.
 
-    `paper` has events_counted and mu_sapp of each scene, as far as the paper prints
-    them.
+    `paper` has events_counted and mu_sapp of each scene, where the paper prints them.
 
     Returns
     -------
     DataFrame
-        One row per scene, quantity and question. as_printed: is the number of a slider
-        the paper's value? k of n sliders, their share with its interval low to high,
-        and q05, q50, q95, the 5, 50 and 95 % of the numbers drawn. Scene all: are the
-        three mu_sapp of a slider the same to a unit of the last digit (same_mu_sapp; its
-        numbers are their differences), and are all six numbers the paper's (all_six)?
+        One row per scene, quantity and question. as_printed: does a slider have the
+        paper's value? k of n sliders do; share has an interval from low to high; q05,
+        q50 and q95 are quantiles of the numbers drawn. Scene all: do the three mu_sapp
+        of a slider agree to one unit of the last digit (same_mu_sapp; the numbers are
+        their largest differences), and are all six numbers the paper's (all_six)?
     """
     draws = members[members["draw"] > 0].pivot_table(
         index="draw", columns="scene", dropna=False
@@ -108,7 +107,7 @@ def digits_table(
 
 
 def share_row(hits: pd.Series) -> dict[str, Any]:
-    """Number of sliders that have a value, and their share with its interval."""
+    """Number of hits, and their share with its interval."""
     k = int(hits.sum())
     n = len(hits)
     low, high = share_interval(k, n)

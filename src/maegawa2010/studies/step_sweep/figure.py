@@ -1,5 +1,5 @@
-"""Transitions right, and whether the paper's count comes out, against the step of
-RK4."""
+"""Figure: the share of right transitions, and whether the paper's count is right, against
+the step of RK4."""
 
 import pandas as pd
 from matplotlib.figure import Figure
@@ -9,7 +9,7 @@ from precursors.figures.style import Options
 
 HEIGHT_MM = 56.0
 POINT: Options = {"linestyle": "none", "markersize": 3}
-# By whether the count of events is right.
+# Marks, by whether the count of events is right.
 LOOKS = {
     True: POINT | {"marker": "o", "color": style.OTHERS[4], "label": "count right"},
     False: POINT | {"marker": "x", "color": style.GREY, "label": "count wrong"},
@@ -30,9 +30,9 @@ def draw(table: pd.DataFrame) -> Figure:
                 points = steps[is_right == kind]
                 axes.plot(points["step_s"], points["percentage"], **look)
             theta = style.theta_text(exact["theta"])
-            found = f"{is_right.sum()} of {len(steps)} counts right"
+            counts = f"{is_right.sum()} of {len(steps)} counts right"
             sequences = (steps["percentage"] == 100).sum()
-            axes.set_title(f"{theta}\n{found}, {sequences} sequences", pad=3)
+            axes.set_title(f"{theta}\n{counts}, {sequences} sequences", pad=3)
             axes.set(xscale="log", ylim=(-4, 104), xlabel=r"Step $\Delta t$ of RK4 [s]")
             axes.minorticks_off()
         style.draw_key(figure)

@@ -1,4 +1,4 @@
-"""The paper's counts against the step of Runge and Kutta's method."""
+"""The paper's counts against the step of the classical Runge-Kutta method (RK4)."""
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from maegawa2010.methods import METHODS, attempt
-from precursors.analysis.events import transitions_right
+from precursors.analysis.agreement import transitions_right
 from precursors.analysis.slips import slip_table
 from precursors.analysis.summary import summary_of
 from precursors.benchmark.compare import until_global_slip
@@ -15,7 +15,7 @@ from precursors.solver.run import Record, Run
 
 COARSEST = 1e-5  # s
 FINEST = 1e-9
-# How many there are, evenly spaced by logarithm: in the default chart, in the full one.
+# Number of steps, evenly spaced in the logarithm, in the default and in the full study.
 STEPS = 25
 STEPS_FULL = 97
 
@@ -31,11 +31,11 @@ def step_sweep_table(runs: Mapping[str, Run], full: bool) -> pd.DataFrame:
 
 
 def sweep(exact: Run, steps: Iterable[float]) -> Iterator[dict[str, object]]:
-    """The exact solver's numbers up to the end of the first global slip, then those of
-    RK4 at each step [s].
+    """Yield the exact solver's row up to the end of the first global slip, then one of
+    RK4 for each step [s]; see `row`.
 
-    The duration of the exact run, to the first global slip or longer, limits the other
-    runs. Rows: see `row`.
+    RK4 runs for at most the duration of the exact run, which includes the first global
+    slip.
     """
     truth = until_global_slip(exact)
     yield row("exact", math.nan, truth, truth)
@@ -53,8 +53,8 @@ def row(method: str, step: float, run: Record, truth: Record) -> dict[str, objec
     -------
     dict
         method; step_s [s], NaN for the exact solver; events_counted, the number of
-        events in Fig. 13; transitions_right before the first wrong one, and
-        transitions_true, all there are.
+        events in Fig. 13; transitions_right, how many are right before the first wrong
+        one; and transitions_true, how many there are.
     """
     return {
         "method": method,

@@ -1,5 +1,4 @@
-"""The arrays that a run is made in: the chain with its motion, how far it is, the
-record."""
+"""The arrays of a run in the kernel: its chain and motion, its progress, its record."""
 
 from typing import NamedTuple
 
@@ -8,34 +7,34 @@ import numpy as np
 from precursors.model.chain import FloatArray
 from precursors.solver.kernel.layout import ROWS, TERMS, WIDTH
 
-# `motion` is one array, (rows, columns), as Numba takes long to hand on a tuple of
-# arrays. Column 0 is the drive, columns 1..N are the blocks; beyond them is room for a
-# group.
+# `motion` is one array, (rows, columns), because Numba passes a tuple of arrays slowly.
+# Column 0 is the drive, columns 1..N are the blocks, and further columns are padding.
 #
-# The chain: the stiffness behind a block, mu_s w_i and mu_k w_i [N], and 1 where a
-# block bears a load that counts in slip events.
+# The chain: the stiffness behind a block, mu_s w_i and mu_k w_i [N], and 1 for a block
+# that counts in slip events.
 COUPLING, STRENGTH, FRICTION, BEARS_LOAD = range(4)
-# The state: velocities; spring forces in two doubles; the net force of the springs on
-# each block; its mode.
+# The state: velocities, spring forces in two doubles, the net force of the springs on
+# each block, and its mode.
 VELOCITY, SPRING_FORCE, FORCE_REST, NET_FORCE, MODE = range(4, 9)
-# What follows from the modes: SLIDES is 1 or 0 (1 for the drive), PUSH is the friction
-# against the motion, HOLD is mu_s w_i where a block sticks, FELT is 1 where a block or
-# a neighbour of it moves.
+# These follow from the modes. SLIDES is 1 or 0 (1 for the drive), PUSH is the kinetic
+# friction, HOLD is mu_s w_i if a block sticks, and FELT is 1 if a block or a neighbour
+# of it moves.
 SLIDES, PUSH, HOLD, FELT = range(9, 13)
-# A window: SIGN is that of `guess.watched`; spring forces at its start; SLIP is the way
-# since then; UNDECIDED has the blocks of a group that are not proved as bits.
+# A window: SIGN is that of `guess.watched`, FORCE_BEFORE and REST_BEFORE are the spring
+# forces at its start, SLIP is the displacement since then, and the bits of UNDECIDED
+# are the blocks of a group without a proof.
 SIGN, FORCE_BEFORE, REST_BEFORE, SLIP, UNDECIDED = range(13, 18)
-# By term, not by block: s^n / n! for the length of the window, and for the time looked
-# at; room for the series of one function.
+# These have a column per term, not per block: s^n / n! for the length of the window,
+# s^n / n! for the time of interest, and the series of one function.
 WHOLE, WEIGHT, SERIES = range(18, 21)
-# The first of the rows with derivatives: see `series.expand`.
+# First row of the derivatives (see `series.expand`).
 RATE = 21
-# Doubles in a line of the cache.
+# Doubles per cache line.
 LINE = 8
 
 
 class System(NamedTuple):
-    """A chain in the kernel's units: `tau` is in s, `speed` is the unit N/tau of
+    """A chain in the kernel's units: `tau` is in s, and `speed` is the unit N/tau of
     velocities in m/s."""
 
     n_blocks: int
@@ -45,8 +44,10 @@ class System(NamedTuple):
 
 
 class Batch(NamedTuple):
-    """Chains of equal length and their starts, a row each: see `units.parameters`; [N],
-    [m], [m/s]."""
+    """Chains of equal length and their starts, one per row.
+
+    `parameters` are those of `units.parameters`; the others are in N, m and m/s.
+    """
 
     parameters: FloatArray
     weights: FloatArray
@@ -55,8 +56,10 @@ class Batch(NamedTuple):
 
 
 class End(NamedTuple):
-    """Where runs end: at a time [s], after a global slip, and with an error after so
-    many transitions or windows."""
+    """Where runs end: at `duration` [s], or after a global slip if `until_global`.
+
+    Runs with `most` transitions or `most_windows` windows end with an error.
+    """
 
     duration: float
     until_global: bool
@@ -64,12 +67,16 @@ class End(NamedTuple):
     most_windows: int
 
 
-# Where a run is: tau [s]; time of the event's onset in two doubles [s], time since then
-# and since the last transition [tau]; numbers of transitions, moving blocks, those of
-# them without load, blocks whose load counts, those of them that slide, stored states,
-# transitions between two of these, windows, derivatives of single blocks, searches of a
-# function and steps to roots; whether all blocks whose load counts slid at once; how it
-# ended; a block beyond which none slides; windows on end in which time stood still.
+# Progress of a run:
+# - tau [s], onset of the event in two doubles [s], and times since the onset and since
+#   the last transition [tau];
+# - numbers of transitions, of moving blocks, of those without load, of blocks whose
+#   load counts, and of those that slide;
+# - numbers of stored states, and of transitions between two of them;
+# - numbers of windows, of derivatives of single blocks, of searches of a function, and
+#   of steps to roots;
+# - whether all blocks whose load counts slid at once, how the run ended, a block beyond
+#   which none slides, and the number of consecutive windows in which time stood still.
 PROGRESS = np.dtype(
     [(name, "f8") for name in ("tau", "onset", "onset_error", "elapsed", "since")]
     + [
@@ -94,15 +101,14 @@ PROGRESS = np.dtype(
     ]
 )
 
-# Numbers in a row of a record: a transition's time [s], block, mode, tangential load
-# [N], and the interval before it [s]. After the last of a run comes the time that is
-# reached, and the interval before that.
+# A row of a record has a transition's time [s], block, mode, tangential load [N] and
+# the interval before it [s]. The row after the last transition of a run has the time
+# reached, and the interval before it.
 ROW = 5
 
 
 def memory_for(n_blocks: int) -> FloatArray:
-    """Room for `motion`, in which no group of blocks lies across two lines of the
-    cache."""
+    """Allocate `motion` such that no group of blocks extends over two cache lines."""
     groups = n_blocks // WIDTH + 2
     columns = LINE * -(-max(WIDTH * groups, TERMS) // LINE)
     size = (RATE + ROWS) * columns

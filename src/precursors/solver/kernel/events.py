@@ -1,5 +1,4 @@
-"""The event loop: chains from their start, transition after transition, into a
-record."""
+"""The event loop: run chains from their start and record each transition."""
 
 from numba import int64
 
@@ -57,14 +56,14 @@ from precursors.solver.kernel.units import set_up
 
 @outer
 def run_batch(batch, end, progress, record, states, motion, first, windows):
-    """Run chain after chain, from the first that is not finished on, into one record.
+    """Run one chain after the other, beginning with chain `first`, into one record.
 
-    Row j of `batch` is a chain with its start, row j of `progress` says where it is.
-    Returns how many chains are finished, and how many rows and states they took. It
-    stops before a new chain if the record is half full, and pauses the present one if
-    record or states are full or after `windows` windows. The state of a paused chain is
-    in `motion`, and its rows follow those of the others; it goes on in a record that
-    begins with them.
+    Row j of `batch` is a chain with its start, and row j of `progress` is its progress.
+    Return how many chains are finished, and how many rows and states they used. The
+    loop stops before a new chain if the record is half full. It pauses the present
+    chain if the record or the states are full, or after `windows` windows. The state of
+    a paused chain is in `motion`, and its rows follow those of the others. To continue
+    it, pass a record that begins with its rows.
     """
     n_blocks = batch.weights.shape[1]
     used = stored = 0
@@ -106,8 +105,11 @@ def run_batch(batch, end, progress, record, states, motion, first, windows):
 
 @unfused
 def take_start(start, parameters, chain, motion, progress, record, states):
-    """Take a start at time 0. In the first state all blocks with a load stick; those
-    that move are transitions."""
+    """Take a start at time 0.
+
+    In the first state all blocks with a load stick. Those that move are recorded as
+    transitions.
+    """
     positions, velocities, weights = start
     mass, stiffness, spring, _, _, _ = parameters
     stiffest = farthest = before = 0.0
@@ -132,8 +134,7 @@ def take_start(start, parameters, chain, motion, progress, record, states):
             count_sliding(1, i, motion, progress)
             take_mode(i, motion)
             continue
-        # A position of size x is known to its rounding: a block at its limit to within
-        # that still sticks.
+        # Positions are rounded, so a block within rounding of its limit still sticks.
         rounding = ROUNDINGS * (motion[STRENGTH, i] + 4.0 * stiffest * farthest)
         mode = mode_at_rest(motion[NET_FORCE, i], motion[STRENGTH, i] + rounding)
         if motion[VELOCITY, i] != 0.0:
@@ -149,11 +150,11 @@ def take_start(start, parameters, chain, motion, progress, record, states):
 
 @part
 def find_transitions(chain, motion, end, limits, progress, record, states):
-    """Run a chain until its end, or until it has so many transitions, states or
+    """Run a chain to its end, or to one of `limits`: of transitions, states and
     windows.
 
-    The state and `progress` are left at the time reached; record and states are filled
-    from where it says.
+    On return, the state and `progress` are those of the time reached. The record and
+    the states continue from where `progress` says.
     """
     status = PAUSED
     most, most_states, most_windows = limits
@@ -179,7 +180,7 @@ def find_transitions(chain, motion, end, limits, progress, record, states):
 
 @seldom
 def store_state(chain, motion, progress, states):
-    """Store the state that is reached: see `record.States.from_rows`."""
+    """Store the present state (see `record.States.from_rows`)."""
     n = chain.n_blocks
     state = states[progress.stored]
     state[0] = progress.transitions
@@ -193,14 +194,15 @@ def store_state(chain, motion, progress, states):
 
 @part
 def time_left(end, progress):
-    """Time until the end of the run [tau]."""
+    """Return the time until the end of the run [tau]."""
     since_onset = (end.duration - progress.onset) - progress.onset_error
     return since_onset / progress.tau - progress.elapsed
 
 
 @part
 def rest(chain, motion, end, progress, record):
-    """Nothing moves: end the run, or wait in closed form until block 1 lets go."""
+    """End the run if nothing moves any more; otherwise skip to the release of block
+    1."""
     block_1 = int64(1)
     remaining = max(time_left(end, progress), 0.0)
     loading_rate = motion[COUPLING, 1] * chain.drive_velocity
@@ -222,8 +224,7 @@ def rest(chain, motion, end, progress, record):
 
 @seldom
 def start_clock(wait, progress):
-    """Start a new event `wait` after the end of the last; the onset is carried in two
-    doubles."""
+    """Start a new event at a time `wait` after the last; the onset has two doubles."""
     add = (progress.elapsed + wait) * progress.tau + progress.onset_error
     total = progress.onset + add
     progress.onset_error = add - (total - progress.onset)
@@ -234,7 +235,8 @@ def start_clock(wait, progress):
 
 @inner
 def count_sliding(more, i, motion, progress):
-    """Count the blocks that slide, and note when all do whose load counts."""
+    """Count the sliding blocks, and note whether all whose load counts slide at
+    once."""
     progress.sliding += more
     if motion[BEARS_LOAD, i] > 0.0:
         progress.loaded_sliding += more
@@ -244,7 +246,7 @@ def count_sliding(more, i, motion, progress):
 
 @part
 def note_time(progress, record):
-    """Record the time, after the transitions so far; return the row."""
+    """Write the time into the row after the last transition, and return the row."""
     row = record[progress.transitions]
     row[0] = progress.onset + (progress.onset_error + progress.elapsed * progress.tau)
     row[4] = progress.since * progress.tau
@@ -253,7 +255,7 @@ def note_time(progress, record):
 
 @part
 def note_transition(i, new, load, progress, record):
-    """Record that block i has a new mode now."""
+    """Record the new mode of block i."""
     row = note_time(progress, record)
     row[1] = i
     row[2] = new
@@ -264,9 +266,9 @@ def note_transition(i, new, load, progress, record):
 
 @part
 def slide(chain, motion, end, progress, record):
-    """Go through one window, to its first transition or to its end."""
+    """Move through one window, to its first transition or to its end."""
     if progress.sliding == progress.free:
-        # Only blocks without load move, which is no event.
+        # Only blocks without load move, which does not count as an event.
         start_clock(0.0, progress)
     remaining = time_left(end, progress)
     if remaining <= 0.0:
@@ -283,8 +285,8 @@ def slide(chain, motion, end, progress, record):
     old = int(motion[MODE, i])
     new = side
     if old != 0:
-        # A block that sticks at the limit lets go at once where its force grows: its
-        # margin decides.
+        # A block that stops at its limit sticks; if its force still grows, its margin
+        # releases it at once.
         new = mode_at_rest(
             motion[NET_FORCE, i],
             motion[STRENGTH, i] + zero_below(i, roundings, motion),
@@ -299,12 +301,11 @@ def slide(chain, motion, end, progress, record):
 
 @part
 def next_transition(window, roundings, chain, motion, progress):
-    """Go to the first transition in a window: (time in it, block, side); (window, 0, 1)
-    if there is none.
+    """Move to the first transition in a window; return (time, block, side).
 
-    Guess it, go there, and prove for all blocks at once that nothing comes before. A
-    wrong guess costs time only: where the proof fails, the functions of those blocks
-    are searched.
+    Without a transition these are (window, 0, 1). The transition is guessed, and a
+    proof for all blocks shows that none comes earlier. A wrong guess only costs time:
+    the functions of blocks for which the proof fails are searched.
     """
     end = last_column(chain, progress.farthest)
     begin(end, motion)
@@ -326,17 +327,19 @@ def next_transition(window, roundings, chain, motion, progress):
     progress.derivatives += rows * end
     move(s, end, chain, motion)
     if prove(end, i, motion) != 0:
-        share, found, found_side = search(order_at(s), end, roundings, motion, progress)
+        share, block, its_side = search(order_at(s), end, roundings, motion, progress)
         if share < 1.0:
             s = share * s
-            i = found
-            side = found_side
+            i = block
+            side = its_side
             move(s, end, chain, motion)
     return s, i, side
 
 
 @inner
 def last_column(chain, farthest):
-    """Last column of the groups that take part: no block beyond the next one feels that
-    `farthest` slides."""
+    """Return the last column of the groups that can move or feel a motion.
+
+    No block beyond the one after `farthest` feels that it slides.
+    """
     return WIDTH * ((min(farthest + 1, chain.n_blocks) + WIDTH - 1) // WIDTH)

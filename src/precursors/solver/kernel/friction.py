@@ -1,5 +1,4 @@
-"""Coulomb's law (Eqs. 4-6): modes of blocks, what follows from them, and which one a
-block at rest takes."""
+"""Coulomb's law (Eqs. 4-6): the modes of blocks, and the rows that follow from them."""
 
 from precursors.model.chain import FREE
 from precursors.solver.kernel.arrays import (
@@ -32,7 +31,7 @@ def set_mode(i, new, chain, motion):
 
 @inner
 def take_mode(i, motion):
-    """Set what follows from the mode of block i."""
+    """Set the rows that follow from the mode of block i."""
     mode = motion[MODE, i]
     motion[SLIDES, i] = 1.0 if mode != 0 else 0.0
     motion[SIGN, i] = mode
@@ -42,8 +41,10 @@ def take_mode(i, motion):
 
 @inner
 def take_neighbours(i, motion):
-    """Set whether the function watched of block i changes: it or a neighbour of it
-    moves. A block without load has none."""
+    """Set whether block i or a neighbour moves, so that its event function changes.
+
+    A block without load has no event function.
+    """
     behind = motion[COUPLING, i] * motion[SLIDES, i - 1]
     ahead = motion[COUPLING, i + 1] * motion[SLIDES, i + 1]
     moved = motion[SLIDES, i] + behind + ahead
@@ -52,8 +53,11 @@ def take_neighbours(i, motion):
 
 @inner
 def mode_at_rest(force, limit):
-    """Mode of a block whose velocity is zero: it sticks within its limit, or follows
-    the force (Eq. 5)."""
+    """Return the mode of a block with zero velocity.
+
+    It sticks within its limit, and slides in the direction of the force otherwise (Eq.
+    5).
+    """
     if abs(force) <= limit:
         return 0
     return 1 if force > 0.0 else -1
@@ -61,8 +65,10 @@ def mode_at_rest(force, limit):
 
 @seldom
 def is_at_rest(chain, motion):
-    """Whether nothing moves but the drive: all blocks stick, or bear no load and were
-    never pushed."""
+    """Whether nothing moves but the drive.
+
+    Then all blocks stick, apart from those without load that were never pushed.
+    """
     for i in range(1, chain.n_blocks + 1):
         is_pushed = (
             motion[SPRING_FORCE, i] != motion[SPRING_FORCE, i + 1]
@@ -76,8 +82,7 @@ def is_at_rest(chain, motion):
 
 @inner
 def farthest_sliding(start, motion):
-    """Farthest block that slides, if none of those beyond `start` does; 1 where none
-    slides."""
+    """Return the farthest block that slides, or 1; none beyond `start` may slide."""
     i = start
     while i > 1 and motion[MODE, i] == 0:
         i -= 1

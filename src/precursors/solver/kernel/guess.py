@@ -1,4 +1,4 @@
-"""Guess the next transition: which block, and when."""
+"""Guess the block and the time of the next transition."""
 
 import numpy as np
 
@@ -16,30 +16,30 @@ from precursors.solver.kernel.decorators import inner
 from precursors.solver.kernel.layout import PROOF_ORDER, WIDTH
 from precursors.solver.kernel.series import powers
 
-# A root this near to the start is left to the search: a block that has just begun to
-# move has one there that was dealt with already.
+# A root this near to the start is left to the search, because a block that has just
+# begun to move has its last transition there.
 NEAR = 1e-6
-# The window ends a little after the guess, so that it needs fewer rows, but not before
-# this part of it.
+# The window ends at MARGIN times the guess, so that it needs fewer rows, but at LEAST
+# of its length.
 MARGIN = 1.2
 LEAST = 0.125
-# Steps to the root from the terms of the guess, then from all terms.
+# Steps to the root: the first use the terms of the guess, the others use all terms.
 EARLY_STEPS = 2
 STEPS = 6
-# Halley's step has an error of the order of its cube: after one so short, relative to
-# the time, none is left.
+# The error of Halley's method is of the order of the cube of its step, so after a step
+# this short, relative to the time, it is negligible.
 LAST_STEP = 2e-6
 
 
 @inner
 def watched(n, i, slides, motion):
-    """n-th derivative, but for sign and constant, of the functions g that are watched
-    of a group.
+    """Return the n-th derivative of the event functions g of a group, apart from sign
+    and constant.
 
-    A root of g is a transition. Where a block slides, g is its velocity in the sense of
-    its sliding: it stops. Where it sticks, g is the margin mu_s w - side F on the side
-    that is nearer at the start (Eq. 5): it lets go. SIGN is the sense of the sliding,
-    or -side; HOLD is mu_s w.
+    A root of g is a transition. If a block slides, g is its velocity in the direction
+    in which it slides, and a root is a stop. If it sticks, g is the margin mu_s w -
+    side F on the side that is nearer at the start (Eq. 5), and a root is a release.
+    SIGN is the direction of sliding, or -side; HOLD is mu_s w.
     """
     return lanes.choose(
         slides, lanes.load(motion, RATE + n, i), lanes.load(motion, RATE + n + 1, i)
@@ -48,19 +48,19 @@ def watched(n, i, slides, motion):
 
 @inner
 def two_terms(n, i, slides, motion):
-    """Terms n and n + 1 of the functions that are watched, at the end of the window."""
+    """Return the sum of terms n and n + 1 of the event functions at the end of the
+    window."""
     first = motion[WHOLE, n] * watched(n, i, slides, motion)
     return first + motion[WHOLE, n + 1] * watched(n + 1, i, slides, motion)
 
 
 @inner
 def guess(end, motion):
-    """The block whose function seems to vanish first: (share of the window, block);
-    (infinity, 0) if none.
+    """Guess whose event function vanishes first; return (share of the window, block).
 
-    Each function that is negative at the end of the window has a root about where the
-    parabola has one that shares its value and slope at the start, and its value at the
-    end.
+    Without a root these are (infinity, 0). The root of a function that is negative at
+    the end of the window is guessed from a parabola with the same value and slope at
+    the start, and the same value at the end.
     """
     zero = lanes.spread(0.0)
     share = np.inf
@@ -80,8 +80,8 @@ def guess(end, motion):
         if lanes.where_negative(zero - below) == 0:
             continue
         root = lanes.square_root(lanes.larger(slope * slope - 4.0 * (g * bend), zero))
-        # The root of g + slope u + bend u^2 in [0, 1], without a difference of equal
-        # numbers.
+        # The root of g + slope u + bend u^2 in [0, 1], in the form without
+        # cancellation.
         u = lanes.choose(slope, slope + root, 2.0 * g) / lanes.choose(
             slope, -2.0 * bend, root - slope
         )
@@ -99,8 +99,10 @@ def guess(end, motion):
 
 @inner
 def find_root(s, i, order, motion, progress):
-    """The root near s of the function watched of block i; infinity if no root is found.
-    WEIGHT is used."""
+    """Return the root near s of the event function of block i, or infinity.
+
+    Row WEIGHT is overwritten.
+    """
     for k in range(STEPS):
         terms = PROOF_ORDER if k < EARLY_STEPS else order
         powers(s, terms, WEIGHT, motion)
@@ -115,8 +117,10 @@ def find_root(s, i, order, motion, progress):
 
 @inner
 def function_at(i, order, motion):
-    """The function watched of block i and two derivatives, at the time of WEIGHT, up
-    to an even order."""
+    """Return the event function of block i and two derivatives at the time of WEIGHT.
+
+    The series is cut after `order`, which is even.
+    """
     sign = motion[SIGN, i]
     lowest = 0 if motion[SLIDES, i] > 0.0 else 1
     terms = motion[RATE + lowest :, i]
@@ -125,7 +129,7 @@ def function_at(i, order, motion):
     c1 = terms[1]
     c2 = terms[2]
     g = g_odd = slope = slope_odd = bend = bend_odd = 0.0
-    # Even and odd terms apart: two short chains of sums instead of a long one.
+    # Even and odd terms are summed apart: two short chains of sums run in parallel.
     for n in range(order, 2, -2):
         even = terms[n]
         odd = terms[n - 1]

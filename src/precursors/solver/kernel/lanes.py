@@ -1,8 +1,7 @@
-"""Four doubles at once in compiled code: a type for Numba on which +, -, *, / act lane
-by lane.
+"""A Numba type of four doubles, on which +, -, * and / act lane by lane.
 
-Loops over the blocks of a chain are too short for LLVM to vectorise by itself. A value
-of this type becomes one AVX register, or two of SSE or NEON.
+Loops over the blocks of a chain are too short for LLVM to vectorise them. A value of
+this type becomes one AVX register, or two registers of SSE or NEON.
 """
 
 import functools
@@ -45,7 +44,7 @@ class _FourModel(models.PrimitiveModel):
 
 
 def _operation(build, result, *kinds):
-    """Make a function of compiled code from one that builds its instructions, (builder,
+    """Make a compiled function from `build`, which emits its instructions: (builder,
     *values) -> value."""
 
     def generate(context, builder, signature, arguments):
@@ -53,7 +52,7 @@ def _operation(build, result, *kinds):
         return context.get_dummy_value() if result == types.void else value
 
     @functools.wraps(build)
-    def typed(typingctx, *given):
+    def typed(typingctx, *arguments):
         return result(*kinds), generate
 
     return intrinsic(typed)
@@ -87,7 +86,7 @@ def _where(builder, flag, a, b):
 
 
 def _across(builder, comparison, a):
-    """Select one of all lanes, by halves."""
+    """Reduce all lanes to one by halving."""
     for step in (2, 1):
         a = _select(
             builder,
@@ -104,7 +103,7 @@ def _where_negative(builder, a):
 
 
 def _group(context, builder, kind, arguments):
-    """Pointer to four elements of a row from one on."""
+    """Return a pointer to four consecutive elements of a row."""
     array = context.make_array(kind)(context, builder, arguments[0])
     stride = builder.extract_value(array.shape, 1)
     place = builder.add(builder.mul(arguments[1], stride), arguments[2])
@@ -132,37 +131,35 @@ def _store(typingctx, values, row, i, a):
 # values[row, i : i + 4], and values[row, i : i + 4] = a.
 load: Any = intrinsic(_load)
 store: Any = intrinsic(_store)
-# One number in all lanes, or one in each.
+# The same number in all lanes, or one number per lane.
 spread = _operation(lambda b, value: _pack(b, *WIDTH * [value]), four, types.float64)
 pack = _operation(
     lambda b, w, x, y, z: _pack(b, w, x, y, z), four, *WIDTH * [types.float64]
 )
-# Each lane's neighbour behind: the last lane of `before`, then all but the last of
-# `here`.
+# Neighbours behind: the last lane of `before`, then all but the last of `here`.
 behind = _operation(
     lambda b, before, here: _shuffle(b, before, here, range(3, 7)), four, four, four
 )
-# Each lane's neighbour ahead: all but the first lane of `here`, then the first of
-# `after`.
+# Neighbours ahead: all but the first lane of `here`, then the first of `after`.
 ahead = _operation(
     lambda b, here, after: _shuffle(b, here, after, range(1, 5)), four, four, four
 )
 magnitude = _operation(lambda b, a: _call(b, "fabs", a), four, four)
 square_root = _operation(lambda b, a: _call(b, "sqrt", a), four, four)
-# Of each pair of lanes, and of all lanes.
+# The first two compare lane by lane, the others across all lanes.
 larger = _operation(lambda b, x, y: _select(b, ">", x, y), four, four, four)
 smaller = _operation(lambda b, x, y: _select(b, "<", x, y), four, four, four)
 largest = _operation(lambda b, a: _across(b, ">", a), types.float64, four)
 smallest = _operation(lambda b, a: _across(b, "<", a), types.float64, four)
-# x in lanes where flag > 0, y or zero in the others.
+# x in lanes with flag > 0, and y or zero in the others.
 choose = _operation(_where, four, four, four, four)
 only = _operation(lambda b, flag, x: _where(b, flag, x, ZERO), four, four, four)
-# Bits of lanes in which a >= 0 does not hold: below zero, or not a number.
+# Bits of the lanes in which a < 0 or a is NaN.
 where_negative = _operation(_where_negative, types.int64, four)
 
 
 def _lane_by_lane(operation, name):
-    """Let an operator act on two values of four, or on one and a number."""
+    """Let an operator act on two values of type Four, or on one and a number."""
 
     @type_callable(operation)
     def typed(context):

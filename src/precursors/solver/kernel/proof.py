@@ -1,12 +1,12 @@
-"""Prove that no transition comes before the one that was guessed; search where the
-proof fails.
+"""Prove that no transition comes before the guessed one; search if the proof fails.
 
-**No root before the end.** Let g be a power series in u on [0, 1] with the terms a_n:
+The proof shows that an event function has no root before the end. Let g be a power
+series in u on [0, 1] with the terms a_n:
 
     g(u) = a_0 + a_1 u + ... + a_5 u^5 + u^6 r(u),    r(u) = a_6 + a_7 u + a_8 u^2 + ...
 
-Let R = |a_7| + 2 |a_8| + 3 |a_9| + ... >= |r'|, so that r(u) differs from r(1) by (1 -
-u) R at most. Then the value g(1), which is known to rounding, replaces all terms from
+Let R = |a_7| + 2 |a_8| + 3 |a_9| + ... >= |r'|, so that r(u) differs from r(1) by at
+most (1 - u) R. The value g(1), which is known to rounding, then replaces all terms from
 the sixth on:
 
     Q(u) - u^6 (1 - u) R <= g(u) <= Q(u) + u^6 (1 - u) R,
@@ -20,8 +20,9 @@ between its smallest and largest coefficients, so g lies between
     min(b_0, ..., b_5, g(1), (6 b_5 + g(1) - R) / 7)  and
     max(b_0, ..., b_5, g(1), (6 b_5 + g(1) + R) / 7).
 
-If the lower one is not negative then g > 0 on (0, 1), or its lower bound is zero
-everywhere: each Bernstein polynomial is positive there.
+If the lower bound is not negative then g > 0 on (0, 1), because each Bernstein
+polynomial is positive there. The only exception is a lower bound that is zero
+everywhere.
 """
 
 import math
@@ -47,8 +48,8 @@ from precursors.solver.kernel.guess import watched
 from precursors.solver.kernel.layout import WIDTH, WINDOW
 from precursors.solver.kernel.roots import first_root, zero_below
 
-# sum_n (n - 6) s^n/n! for n >= 9 is at most so many times s^9/9!, where s is at most
-# the longest window.
+# For n >= 9, sum_n (n - 6) s^n/n! is at most TAIL s^9/9! if s is at most the longest
+# window.
 TAIL = sum(
     (n - 6) * WINDOW ** (n - 9) * math.factorial(9) / math.factorial(n)
     for n in range(9, 40)
@@ -57,13 +58,14 @@ TAIL = sum(
 
 @inner
 def enclose(a0, a1, a2, a3, a4, a5, at_end, rest):
-    """Bounds of g on [0, 1] in each lane: (lower, upper).
+    """Return bounds of g on [0, 1] in each lane: (lower, upper).
 
-    a0..a5 are a_j / C(6, j), `at_end` is g(1), and `rest` is R. The lower bound leaves
-    g(1) itself out: the function whose root ends the window is zero there, to rounding.
+    a0..a5 are a_j / C(6, j), `at_end` is g(1), and `rest` is R. The lower bound omits
+    g(1) itself, because the function whose root ends the window is zero there to
+    rounding.
     """
-    # Pascal's triangle: a012 = a0 + 2 a1 + a2 is b_2, and so on. Each sum is that of
-    # two neighbours above it.
+    # Pascal's triangle: each sum adds two neighbours above it. For example, b_2 is a012
+    # = a0 + 2 a1 + a2.
     a01 = a0 + a1
     a12 = a1 + a2
     a23 = a2 + a3
@@ -89,17 +91,17 @@ def enclose(a0, a1, a2, a3, a4, a5, at_end, rest):
 
 @inner
 def prove(end, candidate, motion):
-    """Mark the blocks in UNDECIDED that may change their mode before the time
-    reached; zero if there are none.
+    """Mark in UNDECIDED the blocks that may change their mode before the time reached;
+    return zero if there are none.
 
-    The state has been brought there by `move`. Of block `candidate` it is known that
-    its function vanishes there. A block that sticks must not reach its other limit
-    either, where g = 2 mu_s w.
+    `move` has brought the state to that time, at which the function of block
+    `candidate` vanishes. A sticking block must not reach its other limit either, where
+    g = 2 mu_s w.
     """
     weight = motion[WEIGHT]
-    found = 0
-    # No later row of a velocity is larger than rows 7 and 8, nor the tenth of a net
-    # force.
+    open_blocks = 0
+    # No later row of a velocity is larger than rows 7 and 8; the same holds for row 10
+    # of a net force.
     largest = lanes.spread(0.0)
     for i in range(1, end + 1, WIDTH):
         for n in (7, 8):
@@ -133,14 +135,14 @@ def prove(end, candidate, motion):
             undecided &= ~(1 << (candidate - i))
         undecided |= lanes.where_negative(low * felt)
         motion[UNDECIDED, i] = undecided
-        found |= undecided
-    return found
+        open_blocks |= undecided
+    return open_blocks
 
 
 @seldom
 def search(order, end, roundings, motion, progress):
-    """First root of the functions of the blocks in UNDECIDED: (share of the time
-    reached, block, side)."""
+    """Return the first root of the blocks in UNDECIDED: (share of the time reached,
+    block, side)."""
     share = np.inf
     block = 0
     side = 1
@@ -163,7 +165,7 @@ def search(order, end, roundings, motion, progress):
 
 @inner
 def fill_series(i, sign, order, motion):
-    """Series of the function watched of block i, with the time reached as unit."""
+    """Fill SERIES with the event function of block i, in units of the time reached."""
     lowest = 0 if motion[SLIDES, i] > 0.0 else 1
     motion[SERIES, 0] = motion[HOLD, i] + sign * motion[RATE + lowest, i]
     for n in range(1, order + 1):

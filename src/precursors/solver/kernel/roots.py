@@ -1,5 +1,4 @@
-"""The first root of one function by safe steps: the careful way, where the guess was
-not proved."""
+"""Find the first root of a function by safe steps, if the guess could not be proved."""
 
 import math
 
@@ -16,18 +15,18 @@ from precursors.solver.kernel.arrays import (
 from precursors.solver.kernel.decorators import inner, seldom
 from precursors.solver.kernel.layout import PROOF_ORDER
 
-# A search that takes so many steps starts anew from where it is: near a flat start its
-# steps are tiny.
+# After this many steps the polynomial is expanded about the present place, because
+# steps are tiny near a flat start.
 RESTART = 12
 
 
 @inner
 def zero_below(i, roundings, motion):
-    """Size below which a force on block i, or what it does to its velocity in the
-    window, counts as zero.
+    """Return the size below which a force on block i, or the velocity that it causes in
+    the window, counts as zero.
 
-    It follows from the forces, and from what the motion of the neighbours adds to them
-    within the window.
+    It follows from the forces, and from the change of them by the motion of the
+    neighbours within the window.
     """
     springs = abs(motion[SPRING_FORCE, i]) + abs(motion[SPRING_FORCE, i + 1])
     still = springs + motion[STRENGTH, i]
@@ -38,7 +37,7 @@ def zero_below(i, roundings, motion):
 
 @inner
 def fastest(i, motion):
-    """Size of the first terms of block i's velocity in the window."""
+    """Return the sum of the first terms of block i's speed in the window."""
     total = 0.0
     if motion[SLIDES, i] > 0.0:
         for n in range(PROOF_ORDER + 1):
@@ -48,11 +47,11 @@ def fastest(i, motion):
 
 @seldom
 def first_root(count, zero, series, progress):
-    """First root in [0, 1] of a polynomial with so many terms, or infinity; a value up
-    to `zero` is zero.
+    """Return the first root in [0, 1] of a polynomial with `count` terms, or infinity.
 
-    A root at the start was dealt with already: it is divided out. Where the function
-    then falls, the root is at once. `series` is used up.
+    A value up to `zero` counts as zero. A root at the start belongs to the last
+    transition, and is divided out. If the function still falls, there is another one at
+    the start. `series` is overwritten.
     """
     resolved = 0
     while resolved < count and abs(series[resolved]) <= zero:
@@ -95,8 +94,10 @@ def first_root(count, zero, series, progress):
 
 @inner
 def safe_step(g, slope, curvature):
-    """Positive root of g + slope s - curvature s^2/2 (g >= 0): if -g'' <= curvature, no
-    root is before."""
+    """Return the positive root of g + slope s - curvature s^2/2 (g >= 0).
+
+    No root of a function with -g'' <= curvature lies before it.
+    """
     root = math.sqrt(slope * slope + 2.0 * curvature * g)
     if slope < 0.0:
         return 2.0 * g / (root - slope)
@@ -105,7 +106,7 @@ def safe_step(g, slope, curvature):
 
 @seldom
 def move_series(x, count, series):
-    """The polynomial about x, on what is left of [0, 1]."""
+    """Expand the polynomial about x, and scale it to the rest of [0, 1]."""
     for lowest in range(count - 1):
         for n in range(count - 2, lowest - 1, -1):
             series[n] += x * series[n + 1]

@@ -1,5 +1,4 @@
-"""The chain's linear operator (Eqs. 2 and 3): Taylor series of all blocks, and moving
-along them."""
+"""Taylor series of the motion of all blocks (Eqs. 2 and 3), and their sums."""
 
 from precursors.solver.kernel import lanes
 from precursors.solver.kernel.arrays import (
@@ -22,14 +21,14 @@ from precursors.solver.kernel.layout import INVERSE_FACTORIAL, ORDERS, PARTS, WI
 
 @inner
 def expand(start, order, end, motion):
-    """Derivatives of blocks 1..end at the start of a window, rows start..order + 1;
-    both are even.
+    """Fill rows start..order + 1 with derivatives of blocks 1..end at the start of a
+    window; `start` and `order` are even.
 
-    Where a block slides, row n is the n-th derivative of its velocity v_i: row 1 is the
+    If a block slides, row n is the n-th derivative of its velocity v_i. Row 1 is the
     net force F_i less friction, and row n + 2 is c_i (v_{i-1} - v_i) - c_{i+1} (v_i -
-    v_{i+1}) of row n (Eqs. 2 and 4). Where it sticks, its velocity is zero and the same
-    rows are those of its net force: row n + 1 is the n-th derivative of F_i. Even and
-    odd rows do not wait for each other.
+    v_{i+1}) of row n (Eqs. 2 and 4). If a block sticks, its velocity is zero and the
+    same rows are those of its net force: row n + 1 is the n-th derivative of F_i. Even
+    and odd rows are independent, so the processor computes them in parallel.
     """
     for n in range(start, order + 2, 2):
         left = lanes.spread(motion[RATE + n - 2, 0])
@@ -49,7 +48,7 @@ def expand(start, order, end, motion):
 
 @inner
 def two_rows(n, i, motion):
-    """Rows n and n + 1 of a group, zero where its blocks stick."""
+    """Return rows n and n + 1 of a group, with zero for blocks that stick."""
     moves = lanes.load(motion, SLIDES, i)
     even = lanes.load(motion, RATE + n, i)
     odd = lanes.load(motion, RATE + n + 1, i)
@@ -58,8 +57,8 @@ def two_rows(n, i, motion):
 
 @inner
 def net_pull(left, here, right, i, motion):
-    """What the springs of a group do to it, of what the groups do: c_i (left - here) -
-    c_{i+1} (here - right)."""
+    """Return the net force of the springs for displacements of a group and its
+    neighbours: c_i (left - here) - c_{i+1} (here - right)."""
     behind = lanes.load(motion, COUPLING, i)
     ahead = lanes.load(motion, COUPLING, i + 1)
     pull = behind * lanes.behind(left, here) - (behind + ahead) * here
@@ -68,8 +67,8 @@ def net_pull(left, here, right, i, motion):
 
 @inner
 def begin(end, motion):
-    """Begin a window: rows 0 and 1 of blocks 1..end, and the spring forces that `move`
-    starts from."""
+    """Begin a window: set rows 0 and 1 of blocks 1..end, and the spring forces from
+    which `move` starts."""
     for i in range(1, end + 1, WIDTH):
         lanes.store(motion, RATE, i, lanes.load(motion, VELOCITY, i))
         lanes.store(
@@ -86,7 +85,7 @@ def begin(end, motion):
 
 @inner
 def order_at(s):
-    """Even order that is enough for time s of a window."""
+    """Return the even order that is sufficient for time s of a window."""
     return ORDERS[int(PARTS * s)]
 
 
@@ -102,8 +101,10 @@ def powers(s, order, row, motion):
 
 @inner
 def sum_series(i, order, motion):
-    """Velocities and slips of a group at the time of WEIGHT; the smallest terms come
-    first."""
+    """Return velocities and slips of a group at the time of WEIGHT.
+
+    The smallest terms are summed first.
+    """
     ahead = motion[WEIGHT, order + 1]
     v = v_odd = x = x_odd = lanes.spread(0.0)
     for n in range(order, 0, -2):
@@ -125,10 +126,10 @@ def sum_series(i, order, motion):
 
 @inner
 def move(s, end, chain, motion):
-    """The state of blocks 1..end at time s of the window, from the rows of its start.
+    """Move blocks 1..end to time s of the window, from the rows of its start.
 
-    Forces are carried in two doubles: the rounding of one would be the largest error of
-    a run.
+    Forces are carried in two doubles, because rounding to one would be the largest
+    error of a run.
     """
     order = order_at(s)
     powers(s, order, WEIGHT, motion)
@@ -144,8 +145,8 @@ def move(s, end, chain, motion):
         force, rest = two_sum(lanes.load(motion, FORCE_BEFORE, i), change)
         lanes.store(motion, SPRING_FORCE, i, force)
         lanes.store(motion, FORCE_REST, i, rest)
-        # From values in registers: what was just stored is not loaded across two
-        # groups, which would wait.
+        # These values are still in registers. A load across two groups that were just
+        # stored would stall.
         if i > 1:
             lanes.store(
                 motion, NET_FORCE, i - WIDTH, difference(here, here_rest, force, rest)
@@ -170,8 +171,8 @@ def move(s, end, chain, motion):
 
 @inner
 def difference(here, here_rest, after, after_rest):
-    """Net forces on a group, from the spring forces behind its blocks and those of the
-    group after it."""
+    """Return net forces on a group from the spring forces of this group and the
+    next."""
     return (here - lanes.ahead(here, after)) + (
         here_rest - lanes.ahead(here_rest, after_rest)
     )
@@ -179,7 +180,7 @@ def difference(here, here_rest, after, after_rest):
 
 @inner
 def two_sum(a, b):
-    """a + b rounded, and what the rounding took from it."""
+    """Return the rounded sum a + b, and its rounding error."""
     total = a + b
     back = total - a
     return total, (a - (total - back)) + (b - back)
@@ -187,7 +188,7 @@ def two_sum(a, b):
 
 @inner
 def take_net_force(i, motion):
-    """Net force on block i from those of its springs."""
+    """Set the net force on block i from the forces of its springs."""
     motion[NET_FORCE, i] = (motion[SPRING_FORCE, i] - motion[SPRING_FORCE, i + 1]) + (
         motion[FORCE_REST, i] - motion[FORCE_REST, i + 1]
     )

@@ -1,4 +1,4 @@
-"""The state of a chain at any time, from what was recorded."""
+"""Compute the state of a chain at any time from its record."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,8 +31,8 @@ from precursors.solver.kernel.series import (
 from precursors.solver.kernel.units import parameters, set_up
 from precursors.solver.record import States
 
-# Speed [m/s] of a block at the very instant of its release, which tells its direction:
-# a run that starts there has it slide from time 0.
+# Speed [m/s] of a block at the instant of its release. It gives the direction, so that
+# a run which starts from this state has the block slide from time 0.
 JUST_RELEASED = 1e-200
 
 
@@ -44,18 +44,19 @@ def evaluate(
     states: States,
     n_blocks: int,
 ) -> FloatArray:
-    """Spring forces [N] and velocities [m/s] of the first blocks, shape (2, number of
-    times, n_blocks), at each of `sorted_times` [s]."""
-    # Times of the start and of the transitions; the state stored last at each time.
+    """Return spring forces [N] and velocities [m/s] of the first blocks at each of
+    `sorted_times` [s], shape (2, number of times, n_blocks)."""
+    # Times of the start and of the transitions; `nearest` is the last stored state
+    # before each time.
     instants = np.append(0.0, transitions["time"])
     stored = instants[states.after] + states.offset
     nearest = np.searchsorted(stored, sorted_times, side="right") - 1
-    found = np.empty((2, len(sorted_times), n_blocks))
+    states_at = np.empty((2, len(sorted_times), n_blocks))
     go_through(
         np.array(parameters(chain)),
         np.array(chain.weights),
         sorted_times,
-        found,
+        states_at,
         instants,
         intervals,
         transitions["block"].astype(np.int64),
@@ -64,7 +65,7 @@ def evaluate(
         nearest,
         memory_for(chain.n_blocks),
     )
-    return found
+    return states_at
 
 
 @outer
@@ -72,7 +73,7 @@ def go_through(
     parameters,
     weights,
     times,
-    found,
+    states_at,
     instants,
     intervals,
     blocks,
@@ -81,11 +82,11 @@ def go_through(
     nearest,
     motion,
 ):
-    """Fill `found` with spring forces and velocities, from stored states and
+    """Fill `states_at` with spring forces and velocities, from stored states and
     transitions."""
     chain = set_up(parameters, weights, motion)
-    # Velocities and spring forces in two doubles stand side by side: what a motion
-    # changes for good.
+    # Consecutive rows: velocities, and spring forces in two doubles, which is all that
+    # a motion changes.
     state = motion[VELOCITY : FORCE_REST + 1]
     before = np.empty_like(state)
     done = 0
@@ -102,34 +103,36 @@ def go_through(
             done += 1
             offset = 0.0
         since = times[q] - instants[done]
-        # Whole windows are gone through once, so that many times in one slip cost no
-        # more than the slip.
+        # Complete windows are computed once, so many times within one slip cost no more
+        # than the slip.
         is_moving = not is_at_rest(chain, motion)
         while since - offset > WINDOW * chain.tau and is_moving:
             propagate(WINDOW, chain, motion)
             offset += WINDOW * chain.tau
         copy(state, before)
         propagate(max(since - offset, 0.0) / chain.tau, chain, motion)
-        for i in range(found.shape[2]):
-            found[0, q, i] = motion[SPRING_FORCE, i + 1]
-            found[1, q, i] = motion[VELOCITY, i + 1] * chain.speed
+        for i in range(states_at.shape[2]):
+            states_at[0, q, i] = motion[SPRING_FORCE, i + 1]
+            states_at[1, q, i] = motion[VELOCITY, i + 1] * chain.speed
             mode = motion[MODE, i + 1]
-            if found[1, q, i] == 0.0 and mode != 0 and mode != FREE:
-                found[1, q, i] = mode * JUST_RELEASED
+            if states_at[1, q, i] == 0.0 and mode != 0 and mode != FREE:
+                states_at[1, q, i] = mode * JUST_RELEASED
         copy(before, state)
 
 
 @inner
 def copy(rows, into):
-    """Copy rows; `into[:] = rows` takes a second to compile."""
+    """Copy rows in a loop, because `into[:] = rows` takes a second to compile."""
     for n in range(rows.shape[0]):
         for i in range(rows.shape[1]):
             into[n, i] = rows[n, i]
 
 
-def is_compiled_now() -> bool:
-    """Whether this process compiled the event loop, and not yet what looks into runs:
-    whoever waits for the one shall not wait for the other later."""
+def should_compile_evaluation() -> bool:
+    """Whether this process has compiled the event loop, but not yet `go_through`.
+
+    Compiling both at once saves the user a second wait.
+    """
     return bool(run_batch.stats.cache_misses) and not go_through.signatures
 
 
@@ -146,7 +149,7 @@ def take_state(row, states, chain, motion):
 
 @unfused
 def propagate(span, chain, motion):
-    """Advance a state by `span`, within which no mode changes."""
+    """Advance a state by `span`, during which no mode changes."""
     if is_at_rest(chain, motion):
         motion[SPRING_FORCE, 1] += motion[COUPLING, 1] * chain.drive_velocity * span
         return

@@ -1,5 +1,5 @@
-"""A chain in the kernel's units: spring constants (Eqs. 2 and 3), friction (Eqs. 5 and
-6), tau."""
+"""Convert a chain to the kernel's units: springs (Eqs. 2 and 3), friction (Eqs. 5 and
+6) and tau."""
 
 import math
 from operator import attrgetter
@@ -14,7 +14,7 @@ from precursors.solver.kernel.arrays import (
 )
 from precursors.solver.kernel.decorators import unfused
 
-# Numbers that `set_up` takes of a chain beside its weights.
+# Parameters of a chain that `set_up` needs, apart from its weights.
 parameters = attrgetter(
     "mass", "stiffness", "drive_stiffness", "drive_velocity", "mu_s", "mu_k"
 )
@@ -22,10 +22,11 @@ parameters = attrgetter(
 
 @unfused
 def set_up(parameters, weights, motion):
-    """Fill the rows of a chain and its drive, column 0; return it in the kernel's units.
+    """Fill the rows of a chain and its drive (column 0); return it in the kernel's
+    units.
 
-    1/tau is Gershgorin's bound of the largest frequency: a row of a Taylor series is at
-    most as large as the row two before it.
+    1/tau is Gershgorin's bound of the largest frequency. A row of a Taylor series is
+    therefore not larger than the row two before it.
     """
     mass, stiffness, drive_stiffness, drive_velocity, mu_s, mu_k = parameters
     n_blocks = weights.shape[0]

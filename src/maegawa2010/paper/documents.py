@@ -1,12 +1,12 @@
-"""Tables and figures that a document of paper/ shows."""
+"""Results that the documents in paper/ cite: tables and figures."""
 
 import re
 from pathlib import Path
 
 
-def results_shown(document: Path) -> list[str]:
-    """Results that a Typst file names in the words of paper/lib.typ: tables, and the
-    figures in `drawn`."""
+def cited_results(document: Path) -> list[str]:
+    """Paths of the tables and figures that a Typst file names in calls of the functions
+    of paper/lib.typ; figures are the arguments of `drawn`."""
     text = document.read_text(encoding="utf-8")
     tables = re.findall(r'\b(?:rows|row|value|num|share)\(\s*"(\w+)"', text)
     figures = re.findall(r'"(\w+)"', " ".join(re.findall(r"\bdrawn\(([^)]*)\)", text)))

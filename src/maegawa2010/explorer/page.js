@@ -1,35 +1,40 @@
-// The page: its state, what is asked of the worker, and what the reader can do.
+// The page: its state, its requests to the worker, and its reactions to the reader.
 
 const element = (id) => document.getElementById(id);
-const PACE = 4000; // s of film for a second of slip: 1 ms takes 4 s
-const EVENT = [3, 20]; // s of film for one event, shortest where it is alone, and longest
-const GAP = [0.4, 1.2]; // s of film for the time between two events, shortest and longest
-const PAUSE = 1.5; // s before the film of a step begins again
+const PACE = 4000; // slow motion of slips: 1 ms takes 4 s of film
+const EVENT = [3, 20]; // s of film for one event: shortest (if shown alone) and longest
+const GAP = [0.4, 1.2]; // s of film between two events: shortest and longest
+const PAUSE = 1.5; // s before the film of a step is repeated
 
 const state = {
-  slider: { ...UNIFORM.slider }, wish: {}, // what is set, and friction that gave way
+  slider: { ...UNIFORM.slider }, wish: {}, // values now, and those to return to
   step: 1, pick: "partial", view: "first", event: null, time: 0,
-  playing: null, isToPlay: false, repeats: false, // the film, of a step until the reader acts
+  playing: null, isToPlay: false, repeats: false, // whether the film plays and repeats
 };
-let run = null; // what is shown, with its film and its motions
-let request = null; // what the worker works on, and what is asked of it next
-const dirty = new Set(); // figures that are drawn with the next frame
-const shown = {}; // what is in elements
+let run = null; // the run shown, with its film and its motions
+let request = null; // the current request to the worker, with the one that follows
+const dirty = new Set(); // figures to draw in the next frame
+const shown = {}; // HTML of elements by id
 
 const isCalm = () => matchMedia("(prefers-reduced-motion: reduce)").matches;
 const event = () => (state.event === null ? null : run?.events[state.event]);
 const firstGlobal = () => run.events.find(of("isGlobal"));
-const reel = () => [played().start, played().end].map(inFilm); // s of film, of what is played
+const reel = () => [played().start, played().end].map(inFilm); // s of film, ends
+const isStudied = () => document.body.dataset.study !== "";
 const apparent = () => Math.max(0, ...run.counted.map(of("before"))) / run.slider.normal_load;
 
-// Ask for the run of what is set: while a slider is held only up to the first global slip.
+// Request the run of the current values; while a slider is held, up to the first global slip only.
 function solve(isHeld = false) {
   for (const id of ["answers", "readout", "step"]) {
     element(id).setAttribute("aria-live", isHeld ? "off" : "polite");
   }
-  const id = (request?.id ?? 0) + 1, all = !isHeld;
-  const next = { id, slider: state.slider, duration: DURATION, tolerance: TOLERANCE, all };
-  // A run is shown before the next one is begun: else a fast hand would see nothing.
+  const id = (request?.id ?? 0) + 1, { theta } = state.slider;
+  const isOfMeans = isStudied() && STEPS[state.step - 1].study === drawMeans;
+  const thetas = isOfMeans ? [theta, 0, -theta] : [theta];
+  const sliders = thetas.map((theta) => ({ ...state.slider, theta })), all = !isHeld || isOfMeans;
+  const next = { id, sliders, duration: DURATION, tolerance: TOLERANCE, all };
+  if (!isHeld) writeAddress();
+  // A run is shown before the next one begins, or a fast drag would show nothing.
   if (request && !request.isShown) request.next = next;
   else begin(next);
   showParameters();
@@ -39,20 +44,23 @@ function begin(next) {
   worker.postMessage(request);
 }
 
-function hear(data) {
+function receive(data) {
   if (data.kind === "motion") {
     if (data.id === run.id) run.motions.set(data.event, data);
-    redraw("row", "stairs");
+    redraw("row", "load");
   } else if (data.id === request.id) {
+    const { next, moves } = request;
     show(data);
     request.isShown = true;
-    if (request.next) begin(request.next);
+    if (next) begin({ ...next, moves });
+    else if (moves) delete request.moves, move(moves);
   }
 }
 
 function show(next) {
-  const { motions, wanted } = next.id === run?.id ? run : { motions: new Map() };
-  run = { ...next, motions, wanted, counted: countedOf(next.events) };
+  const { id, isFinal, runs: loadings } = next, [own] = loadings;
+  const { motions, wanted, isPlaced } = id === run?.id ? run : { motions: new Map() };
+  run = { ...own, id, isFinal, loadings, motions, wanted, isPlaced, counted: countedOf(own.events) };
   run.highest = 1.02 * Math.max(1e-9, ...run.events.map(of("before")));
   run.film = filmOf(run);
   placeTime();
@@ -63,7 +71,7 @@ function show(next) {
   state.isToPlay = false;
 }
 
-// The rows of Fig. 13: without events shorter than one before.
+// The events counted in Fig. 13: without events shorter than an earlier one.
 function countedOf(events) {
   let longest = 0;
   return upToGlobal(events).filter(({ front }) => front >= longest && (longest = front));
@@ -73,7 +81,7 @@ function upToGlobal(events) {
   return end < 0 ? events : events.slice(0, end + 1);
 }
 
-// The film: seconds at which each event starts and ends when the run is played.
+// The film: its time [s] at the start and at the end of each event.
 function filmOf({ events, end }) {
   let wall = 0, before = 0;
   const knots = { time: [0], wall: [0] };
@@ -97,7 +105,7 @@ function along(from, to, x) {
 const inFilm = (time) => along(run.film.time, run.film.wall, time);
 const inRun = (wall) => along(run.film.wall, run.film.time, wall);
 
-// Where a new run is looked at: the event of the step, or the same event and time as before.
+// Set event and time in a new run: the event of the step, or the same event and time as before.
 function placeTime() {
   const { events, counted, end, isFinal } = run;
   if (!state.playing) {
@@ -107,17 +115,20 @@ function placeTime() {
     const longer = partial[Math.min(middle + 1, partial.length - 1)];
     const picked = { partial: partial[middle], longer, global }[state.pick];
     if (picked) state.event = events.indexOf(picked);
-    // A run that is shown before it is solved may lack the event as yet.
+    // An incomplete run may not have the event yet.
     else if (isFinal || firstGlobal()) state.event = clamp(state.event);
-    if (picked || state.event !== null) state.time = event()?.onset ?? 0;
+    if (event() && (picked || !run.isPlaced)) {
+      state.time = event().onset;
+      run.isPlaced = true;
+    }
   }
   state.time = Math.min(state.time, end);
 }
-// The number of an event that there is, or null.
+// The nearest valid number of an event, or null.
 const clamp = (number) => (number === null || !run.events.length ? null
   : Math.min(Math.max(number, 0), run.events.length - 1));
 
-// Ask for the motion in an event, once; the worker follows one event at a time.
+// Request the motion in an event, once; the worker computes one at a time.
 function askMotion(number) {
   if (run.motions.has(number) || number === run.wanted) return;
   run.wanted = number;
@@ -125,9 +136,9 @@ function askMotion(number) {
 }
 
 const DRAW = {
-  stairs: showStairs, slips: showSlips, lengths: showLengths, row: showRow, study: showStudy,
+  slips: showSlips, load: showLoad, lengths: showLengths, row: showRow, study: showStudy,
 };
-// Draw figures, by default all, in the next frame.
+// Draw figures in the next frame, by default all.
 function redraw(...names) {
   for (const name of names.length ? names : Object.keys(DRAW)) dirty.add(name);
   requestAnimationFrame(drawDirty);
@@ -156,7 +167,7 @@ function showAnswers() {
     (isLost ? lost : `The motion is ${word("predictable")} ${reach}.`));
   element("answers").classList.toggle("lost", isLost);
 }
-// Set what is in an element; whether it is something else than before.
+// Set the HTML of an element; returns whether it has changed.
 function setHtml(id, html) {
   if (shown[id] === html) return false;
   shown[id] = html;
@@ -176,13 +187,13 @@ function showParameters() {
     input.setAttribute("aria-valuetext", text);
     element(`${name}-value`).textContent = text;
   }
-  element("told").textContent = command();
+  element("command").textContent = command();
   setPressed("[data-view]", ({ view }) => view === state.view);
   setPressed("[data-theta]", ({ theta }) => Number(theta) === state.slider.theta);
   setPressed("[data-step]", ({ step }) => Number(step) === state.step);
 }
 
-// All steps lie in one place, so that nothing below them moves; only one is seen.
+// All steps are in the same place, so that nothing below them moves; only one is visible.
 function showStep() {
   for (const [i, { title, text }] of STEPS.entries()) {
     const id = `step-${i + 1}`, isSeen = i + 1 === state.step;
@@ -197,10 +208,10 @@ function showStep() {
 
 function goToStep(number) {
   stop();
-  const { scene, blocks, pick, view = "first", plays = false, study } = STEPS[number - 1];
+  const { scene, pick, view = "first", plays = false, study, shows = "all" } = STEPS[number - 1];
   Object.assign(state, { step: number, pick, view, isToPlay: plays, repeats: plays });
-  Object.assign(document.body.dataset, { shows: number, study: Boolean(study), lit: "" });
-  useSlider({ ...scene.slider, n_blocks: blocks ?? scene.slider.n_blocks });
+  Object.assign(document.body.dataset, { shows, study: study?.name ?? "", lit: "" });
+  useSlider(scene.slider);
   showStep();
 }
 function useSlider(slider) {
@@ -208,16 +219,19 @@ function useSlider(slider) {
   solve();
 }
 
-// Choose an event and look at its onset; alone, it is played. A study gives way to the row.
+// Select an event and show its onset, or animate it if it is shown alone. The row replaces a study.
 function choose(number) {
   stop();
-  document.body.dataset.study = false;
+  document.body.dataset.study = "";
   Object.assign(state, { event: number, pick: null, time: run.events[number].onset });
   if (state.view === "first" && state.time > view().end) state.view = "all";
   setView(state.view);
   if (state.view === "event" && !isCalm()) play();
+  writeAddress();
 }
+// Select another event. A key that is pressed before the run of the step is there waits for it.
 function move(by) {
+  if (!request.isShown) return (request.moves = (request.moves ?? 0) + by);
   const next = clamp(state.event === null ? 0 : state.event + by);
   if (next !== null) choose(next);
 }
@@ -237,7 +251,7 @@ function play() {
   const frame = (now) => {
     state.playing = requestAnimationFrame(frame);
     const passed = Math.max(now - before, 0) / 1000;
-    // Less motion: from the onset of an event to its end and on to the next, a second each.
+    // With reduced motion: onsets and ends of events only, one each second.
     if (isCalm() && passed < 1) return;
     before = now;
     wall = isCalm() ? film.wall[lowerBound(film.wall, wall + 1e-9)] ?? last
@@ -259,14 +273,15 @@ function stop() {
   redraw("row", "lengths");
 }
 
-// The command that draws this run.
+// The command that draws the same run.
+const optionOf = (name) => name.replace("n_", "").replaceAll("_", "-");
 const command = () => `precursors plot${Object.entries(state.slider).map(([name, value]) =>
-  ` --${name.replace("n_", "").replace("_", "-")} ${value}`).join("")}`;
+  ` --${optionOf(name)} ${value}`).join("")}`;
 
 function build() {
-  setHtml("steps", STEPS.map(({ title }, i) => `<button type="button" data-step="${i + 1}"
-    aria-label="Step ${i + 1}: ${title}">${i + 1}</button>`).join("") +
-    `<button type="button" class="strong" id="onward" aria-label="next step">Next</button>`);
+  setHtml("steps", STEPS.map(({ name, title }, i) => `<button type="button" data-step="${i + 1}"
+    aria-label="${name}: ${title}">${name}</button>`).join("") +
+    `<button type="button" class="strong" id="onward" aria-label="Next step">Next</button>`);
   setHtml("step", STEPS.map((_, i) => `<div id="step-${i + 1}"></div>`).join(""));
   setHtml("sliders", Object.entries(SLIDERS).map(([id, { symbol, name, range, step, about }]) => {
     const [low, high] = step ? range : range.map(Math.log10);
@@ -278,7 +293,7 @@ function build() {
 
 function setSlider(name, position) {
   const value = SLIDERS[name].step ? position : Number((10 ** position).toPrecision(2));
-  // The other coefficient of friction gives way, and comes back when it can.
+  // The other coefficient of friction gives way, and returns to its value when it can.
   const other = { mu_s: "mu_k", mu_k: "mu_s" }[name];
   if (other) {
     const wish = (state.wish[other] ??= state.slider[other]);
@@ -288,7 +303,7 @@ function setSlider(name, position) {
   state.slider[name] = value;
 }
 
-// Open the nearest of the events, `far` [px] from a click; whether it is near enough.
+// Open the event nearest to a click, if it is near enough; `far` are the distances [px].
 function openNearest(far) {
   const best = far.indexOf(Math.min(...far)), isNear = far[best] <= REACH;
   if (isNear) (state.view = "event"), choose(best);
@@ -317,7 +332,7 @@ function listen() {
     Object.assign(state, { pick: null, time: inRun(low + ((high - low) * target.value) / 1000) });
   });
   on("views", "click", ({ target: { dataset } }) => dataset.view && setView(dataset.view));
-  for (const id of ["stairs", "slips"]) {
+  for (const id of ["load", "slips"]) {
     on(id, "click", ({ offsetX }) => {
       const { start, end } = view(), { left, right } = chart.time.box;
       const perPixel = (end - start) / (right - left), time = start + (offsetX - left) * perPixel;
@@ -341,7 +356,7 @@ function listen() {
   for (const type of ["pointerdown", "keydown"]) {
     document.addEventListener(type, () => (state.repeats = false), true);
   }
-  // The word under the pointer or with the focus singles out what it means in the picture.
+  // The word under the pointer or with the focus highlights its meaning in the picture.
   for (const type of ["pointerover", "focusin"]) {
     document.addEventListener(type, ({ target }) => {
       document.body.classList.remove("dismissed");
@@ -351,7 +366,7 @@ function listen() {
   }
   const recolour = () => (readPalette(), redraw());
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", recolour);
-  // On paper the colours are those of the light page.
+  // Print with the colours of the light scheme.
   for (const [type, isPrint] of [["beforeprint", true], ["afterprint", false]]) {
     addEventListener(type, () => {
       document.documentElement.classList.toggle("print", isPrint);
@@ -362,13 +377,14 @@ function listen() {
   new ResizeObserver(() => redraw()).observe(document.querySelector("main"));
 }
 
-// The worker from a blob: a page that is opened as a file may not start one from another file.
+// The worker starts from a blob, because a page opened as a file may not load it from a file.
 const code = new Blob([element("worker").textContent], { type: "text/javascript" });
 const worker = new Worker(URL.createObjectURL(code));
-worker.onmessage = ({ data }) => hear(data);
+worker.onmessage = ({ data }) => receive(data);
 worker.onerror = ({ message = "this browser does not let the page start a worker" }) =>
   setHtml("answers", `The solver has stopped: ${message}.`);
 readPalette();
 build();
 listen();
-goToStep(1);
+readAddress();
+addEventListener("hashchange", readAddress);

@@ -1,5 +1,4 @@
-"""The models, from the smallest to the largest, and the quantities that each of them
-answers."""
+"""The models, from the smallest to the largest, and the quantities that each predicts."""
 
 from collections.abc import Callable
 from functools import partial
@@ -14,8 +13,7 @@ from maegawa2010.studies.models.quasistatic import (
     OVERDAMPED,
     quasistatic_slips,
 )
-from precursors.analysis.events import slip_events
-from precursors.analysis.slips import slip_columns
+from precursors.analysis.slips import slip_events
 from precursors.analysis.summary import summary_of
 from precursors.model.chain import Chain
 from precursors.model.statics import longest_run
@@ -23,9 +21,9 @@ from precursors.solver.simulate import simulate
 
 Model = Callable[[Chain], dict[str, Any]]
 PAPERS_MODEL = "chain"
-# What one may ask of a chain, up to and including its first global slip, and its unit.
+# Quantities of a chain up to and including its first global slip, and their units.
 UNITS = {
-    "load_bound": "N",  # largest load of any state of rest (Eq. 13)
+    "load_bound": "N",  # largest load of any state of rest (Eq. 14)
     "first_load": "N",  # load at the onset of the first event
     "events_counted": "1",  # number of events counted in Fig. 13
     "mu_sapp": "1",  # apparent static friction coefficient (Eq. 1)
@@ -35,7 +33,7 @@ UNITS = {
 
 
 def exact_answers(chain: Chain) -> dict[str, Any]:
-    """Follow the paper's chain through time to the end of its first global slip."""
+    """Answers of the paper's chain, simulated to the end of its first global slip."""
     run = simulate(chain, longest_run(chain), until="global slip")
     slips = slip_events(run)
     last = slips[-1]
@@ -44,25 +42,25 @@ def exact_answers(chain: Chain) -> dict[str, Any]:
 
 
 def cascade_answers(chain: Chain, overshoot: float) -> dict[str, Any]:
-    """Follow a quasi-static chain to its first global slip."""
+    """Answers of a quasi-static chain up to its first global slip."""
     return loading_answers(chain, quasistatic_slips(chain, overshoot))
 
 
 def loading_answers(chain: Chain, slips: NDArray[np.void]) -> dict[str, Any]:
-    """A model's answers from its slip events up to the first global slip; NaN for one
-    that needs a global slip and has none."""
-    found = summary_of(slip_columns(slips, chain))
+    """Answers from the slip events of a model up to its first global slip; without one,
+    answers that need it are NaN."""
+    summary = summary_of(slips)
     blocks = np.arange(1, chain.n_blocks + 1)
     reached = np.searchsorted(np.maximum.accumulate(slips["front"]), blocks)
     return {
         "first_load": slips["load_before_N"][0],
-        "events_counted": found.events_counted if found.reached else np.nan,
-        "mu_sapp": found.mu_sapp,
+        "events_counted": summary.events_counted if summary.reached else np.nan,
+        "mu_sapp": summary.mu_sapp,
         "front_loads": np.append(slips["load_before_N"], np.nan)[reached],
     }
 
 
-# From the smallest to the largest: all answers about a chain, by quantity.
+# From the smallest to the largest; each gives its answers for a chain by quantity.
 MODELS: dict[str, Model] = {
     "statics": statics.answers,
     "front_law": statics.front_law_answers,
