@@ -22,10 +22,11 @@ from precursors.support.files import write_table
 BLOCKS_PER_BATCH = 2000
 # L_p/L beyond which the experiment's precursors grow faster (Sect. 6.1).
 KINK = 0.7
-# Error of a transition's time from which on single events are not predicted, and how far
-# runs are tried for it: with many blocks it grows fast, and trying takes 24 runs.
+# Error of a transition's time from which on single events are not predicted.
 UNPREDICTED_S = 1e-6
-BLOCK_SECONDS_TRIED = 200.0
+# Of a run, what is tried first, and then twice as much: trying takes 24 runs, and with
+# many blocks little is predictable.
+TRIED_S = 0.005
 # A run that is made again ends so much before that, or where it ends by itself.
 BEFORE = 0.99
 
@@ -103,10 +104,14 @@ def speedup(slips: NDArray[np.void]) -> float:
 
 
 def predictable(run: Run) -> float:
-    """Time until which single events are predicted [s]; at most what is tried."""
-    tried = min(run.duration, BLOCK_SECONDS_TRIED / run.chain.n_blocks)
-    same = simulate(run.chain, tried, start_positions=run.start_positions)
-    return horizon(same, UNPREDICTED_S)
+    """Time until which single events are predicted [s]."""
+    tried = min(TRIED_S, run.duration)
+    while True:
+        same = simulate(run.chain, tried, start_positions=run.start_positions)
+        known = horizon(same, UNPREDICTED_S)
+        if known < tried or tried == run.duration:
+            return known
+        tried = min(2.0 * tried, run.duration)
 
 
 def known_until(run: Run) -> float:

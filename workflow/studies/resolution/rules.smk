@@ -38,7 +38,7 @@ else:
         log:
             "results/logs/run_resolution/{chunk}.log",
         resources:
-            seconds=6,
+            seconds=70 if config["full"] else 6,
         params:
             sliders=SLIDERS,
             duration=config["duration"],

@@ -49,8 +49,8 @@ HEAVY = 0.2
 PLACES = {"heavy first": 0.0, "heavy middle": 0.5, "heavy last": 1.0}
 # What may differ on another machine before single events are unpredicted (`UNPREDICTED_S`):
 # loads over F_Z, friction over w_i, and R over itself.
-CLOSE = 1e-5
-CLOSE_R = 1e-4
+CLOSE = 1e-6
+CLOSE_R = 1e-5
 SAME = 0.0  # of a count
 
 

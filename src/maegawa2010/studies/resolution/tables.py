@@ -23,11 +23,11 @@ from precursors.solver.simulate import simulate
 CHAIN_OF_ROW = ["scene", "n_blocks"]
 ROW = [*CHAIN_OF_ROW, "quantity"]  # columns that name a row of resolution.csv
 # Of the first run made again, as far as it is predictable (`UNPREDICTED_S`): counts are
-# the same, times to twice the error, loads to fifty times what the drive adds in it.
+# the same, times to twice the error, loads to five times what the drive adds in it.
 OF_FIRST = {
     "events_to_global_slip": 0.0,
     "events_counted": 0.0,
-    "mu_sapp": 1e-5,
+    "mu_sapp": 1e-6,
     "global_slip_s": 2e-6,
 }
 ROUNDING = 1e-12  # of medians, and what follows from them
