@@ -150,6 +150,6 @@ def copy_workflow(path: Path) -> Workspace:
     for name in ("Snakefile", "config.yaml", "LICENSE-text", "CITATION.cff"):
         shutil.copy2(ROOT / name, path)
     unneeded = shutil.ignore_patterns("__pycache__", "*.png", "results")
-    for name in ("workflow", "src", "paper", "profiles"):
+    for name in ("workflow", "src", "paper", "profiles", "benchmarks"):
         shutil.copytree(ROOT / name, path / name, ignore=unneeded)
     return Workspace(path)

@@ -130,7 +130,7 @@ def test_larger_studies_are_an_overlay_of_the_configuration(finished):
         "-n", "--configfile", "config.yaml", "workflow/full.yaml", "--", "all"
     )
     assert outcome.code == 0, outcome.text
-    assert "tabulate_work_precision" in outcome.jobs
+    assert "tabulate_speed" in outcome.jobs
     assert not {"simulate_scene fig10", "mu_sapp"} & outcome.jobs
 
 
