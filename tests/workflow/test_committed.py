@@ -1,7 +1,5 @@
 """Committed tables in a build: checked before they are shown, and made by one target."""
 
-import json
-
 import pandas as pd
 
 TABLE = "paper/tables/balance_loads.csv"
@@ -36,8 +34,8 @@ def test_the_article_makes_every_committed_table(workspace):
 
 
 def test_settings_of_ones_own_are_run_and_the_article_is_left_out(workspace):
-    own = json.dumps({"seed": 1})
-    outcome = workspace.run("-n", "--config", f"resolution={own}", "--", "all")
+    workspace.edit("config.yaml", "", "\nresolution: {seed: 1}\n")
+    outcome = workspace.run("-n", "all")
     assert outcome.code == 0, outcome.text
     assert "run_resolution" in outcome.jobs
     assert not {"check_resolution", "check_balance", "write_paper"} & outcome.jobs
