@@ -1,4 +1,5 @@
-"""R changes by what the drive does beside kinetic friction, less backward sliding."""
+"""The change of R equals the work of the drive beyond kinetic friction, less the loss
+by backward sliding."""
 
 from dataclasses import replace
 
@@ -8,23 +9,23 @@ import pytest
 from precursors import Chain, find_precursors, find_slips, simulate
 from precursors.analysis.balance import backward_slip, balance, distance, drive_work
 
-# Of R, which is 0.02 J at the start: sums over some 30,000 points of the load curve.
+# Error of R, which is 0.02 J at the start, in sums over some 30,000 points.
 ROUNDING_J = 1e-11
-# Of a path that is read at so many times: it is cut where a block turns back.
+# Number of samples of a path, and its relative error: sampling cuts off turning points.
 TIMES = 400_001
 CUT = 1e-3
 
 
 @pytest.mark.parametrize("end", [2.0, 2.8904, 2.9])
-def test_the_identity_holds_in_any_window_also_within_a_slip(end):
+def test_balance_holds_in_any_window_even_within_a_slip(end):
     """The first global slip lasts from 2.8902 to 2.8907 s."""
-    found = balance(simulate(Chain.from_slider(theta="5/6"), 3.0), 0.3, end)
-    assert found.change < -0.01
-    assert abs(found.remainder) < ROUNDING_J
-    assert found.remainder == found.change - found.work + found.backward
+    energy = balance(simulate(Chain.from_slider(theta="5/6"), 3.0), 0.3, end)
+    assert energy.change < -0.01
+    assert abs(energy.remainder) < ROUNDING_J
+    assert energy.remainder == energy.change - energy.work + energy.backward
 
 
-def test_one_block_has_the_same_distance_on_both_sides_of_a_slip():
+def test_distance_of_one_block_is_equal_before_and_after_a_slip():
     """R = (K V t - mu_k F_Z)^2/(2 K) up to the first slip, at K V t = mu_s F_Z; a slip
     reverses F_X - mu_k F_Z."""
     chain = Chain.from_slider(n_blocks=1)
@@ -42,21 +43,21 @@ def test_one_block_has_the_same_distance_on_both_sides_of_a_slip():
 
 
 @pytest.mark.parametrize("mu_k", [0.1, 0.45])
-def test_backward_sliding_takes_from_r_what_its_path_says(mu_k):
-    """The path of each block is read at many times, without transitions."""
+def test_backward_sliding_lowers_r_by_the_work_along_its_path(mu_k):
+    """The reference samples the path of each block and does not use transitions."""
     run = simulate(Chain.from_slider(theta="5/6", mu_k=mu_k, drive_velocity=1e-2), 0.1)
     steps = np.diff(run.at(np.linspace(0.0, run.duration, TIMES))[0], axis=0)
     back = -steps.clip(max=0.0).sum(axis=0)
     slid = backward_slip(run, 0.0, run.duration)
     assert slid.max() > 0.0
     np.testing.assert_allclose(slid, back, rtol=CUT, atol=CUT * slid.max())
-    found = balance(run, 0.0, run.duration)
-    assert found.backward == pytest.approx(2.0 * mu_k * run.chain.weights @ slid)
-    assert abs(found.remainder) < ROUNDING_J
+    energy = balance(run, 0.0, run.duration)
+    assert energy.backward == pytest.approx(2.0 * mu_k * run.chain.weights @ slid)
+    assert abs(energy.remainder) < ROUNDING_J
 
 
-def test_a_drive_that_changes_its_velocity_changes_nothing_in_the_identity():
-    """R goes on where the velocity steps, and so does the balance."""
+def test_balance_holds_across_a_step_of_the_drive_velocity():
+    """R is continuous where the velocity steps."""
     chain = Chain.from_slider(theta="-5/6")
     slow = simulate(chain, 3.0)
     state = slow.at([3.0])
@@ -73,8 +74,8 @@ def test_a_drive_that_changes_its_velocity_changes_nothing_in_the_identity():
     assert ends[1] - ends[0] == pytest.approx(change, abs=ROUNDING_J)
 
 
-def test_blocks_that_have_slid_have_a_balance_of_their_own():
-    """Up to the onset of each event of Fig. 13, with W(L_p) in place of F_Z."""
+def test_blocks_that_have_slid_obey_their_own_balance():
+    """Until the onset of each event of Fig. 13, with W(L_p) instead of F_Z."""
     run = simulate(Chain.from_slider(n_blocks=20), until="global slip")
     counted = find_precursors(find_slips(run))
     chain = run.chain

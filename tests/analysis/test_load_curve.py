@@ -1,4 +1,4 @@
-"""Straight lines between the points of the load curve draw it."""
+"""Straight lines between the points of the load curve represent the load."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ from precursors import Chain, find_slips, simulate
 from precursors.analysis import load_curve as module
 from precursors.analysis.load_curve import TOLERANCE_N, load_curve, load_trace
 
-# Some thirty points on the shortest wiggle of a slip.
+# Some thirty points per shortest oscillation in a slip.
 POINTS_PER_SLIP = 1000
 MOST_BYTES = 3e6
 SEEN_N = 0.01  # a hundredth of a pixel, or less
@@ -21,23 +21,21 @@ def worst_in_slips(run, times, loads):
     return np.abs(np.interp(inside, times, loads) - run.tangential_load(inside)).max()
 
 
-def test_straight_lines_between_the_rows_of_a_trace_draw_every_slip_of_ten_seconds():
+def test_load_trace_resolves_every_slip_of_ten_seconds():
     run = simulate(Chain.from_slider(theta=5 / 6), 10.0)
     trace = load_trace(run)
     assert worst_in_slips(run, trace.time_s, trace.tangential_load_N) <= TOLERANCE_N
     assert len(trace.to_csv(index=False)) < MOST_BYTES
 
 
-def test_one_block_needs_no_more_points_than_before():
+def test_load_curve_of_one_block_needs_no_more_points():
     run = simulate(Chain.from_slider(n_blocks=1), 4.0)
     times, loads = load_curve(run)
     assert TOLERANCE_N / 100 < worst_in_slips(run, times, loads) <= TOLERANCE_N
     assert len(times) == 1343
 
 
-def test_a_block_1_without_load_is_drawn_as_it_moves_with_a_bounded_number_of_points(
-    monkeypatch,
-):
+def test_weightless_block_1_is_drawn_with_bounded_points(monkeypatch):
     run = simulate(Chain.from_slider(theta=1), 0.01)
     times, loads = load_curve(run)
     between = np.linspace(0.0, run.duration, 10_000)
@@ -47,7 +45,7 @@ def test_a_block_1_without_load_is_drawn_as_it_moves_with_a_bounded_number_of_po
     assert len(load_curve(run)[0]) < 110 + len(run.transitions)
 
 
-def test_more_transitions_than_pixels_look_as_all_of_them(monkeypatch):
+def test_thinned_load_curve_looks_like_the_full_one(monkeypatch):
     run = simulate(Chain.from_slider(n_blocks=30), 4.0)
     times, loads = load_curve(run)
     monkeypatch.setattr(module, "MOST_POINTS", 4000)
@@ -56,7 +54,7 @@ def test_more_transitions_than_pixels_look_as_all_of_them(monkeypatch):
     assert abs(np.interp(times, fewer, drawn) - loads).max() < SEEN_N
 
 
-def test_a_run_that_ends_within_a_slip_is_drawn_to_its_end():
+def test_run_that_ends_within_a_slip_is_drawn_to_its_end():
     event = find_slips(simulate(Chain.from_slider(), 3.0)).iloc[0]
     run = simulate(Chain.from_slider(), float((event.onset + event.end) / 2))
     times, loads = load_curve(run)
@@ -64,7 +62,7 @@ def test_a_run_that_ends_within_a_slip_is_drawn_to_its_end():
     assert worst_in_slips(run, times, loads) <= TOLERANCE_N
 
 
-def test_points_lie_at_the_transitions_and_else_only_in_slips():
+def test_points_are_at_transitions_and_otherwise_within_slips():
     run = simulate(Chain.from_slider(), 3.0)
     times, _ = load_curve(run)
     slips = find_slips(run)

@@ -1,5 +1,5 @@
-"""The errors that a run predicts are compared with the proof: they are never too small,
-and not useless."""
+"""Predicted errors of a run, compared with a proof: they are never too small, and not
+uselessly large."""
 
 import numpy as np
 import pytest
@@ -21,17 +21,17 @@ from precursors.solver.run import Run
 CHAINS = sorted(path.name.split(".")[0] for path in CERTIFICATES.glob("*.json.gz"))
 TOLERANCE = 1e-9  # s
 TOLERANCES = [1e-15, 1e-13, 1e-11, 1e-9, 1e-7, 1e-5]  # s
-# An actual error may be so many times the one predicted: 0.7 is the largest known.
+# Largest ratio of an actual error to the predicted one; 0.7 is the largest known.
 OPTIMISM = 2.0
-# Somewhere a prediction is no more than so many times the error: it is at most 10 times
-# on every chain below.
+# Smallest ratio of a predicted error to the actual one on a chain, at most; it is up to
+# 10 on the chains below.
 PESSIMISM = 30.0
-# A near miss is told where a neighbour first does not miss.
+# Relative error of the time of a near standstill, which a neighbouring run detects.
 NEAR = 0.02
 
 
 def beside_proof(certificate: Certificate) -> tuple[Run, Comparison, PredictedErrors]:
-    """A run of the chain that is proved, its errors, and those that it predicts."""
+    """Return a run of the proved chain, its actual errors and its predicted ones."""
     truth = Truth.proved(certificate)
     start = [float(x) for x in certificate.start_positions]
     run = simulate(truth.run.chain, truth.run.duration, start_positions=start)
@@ -39,7 +39,7 @@ def beside_proof(certificate: Certificate) -> tuple[Run, Comparison, PredictedEr
 
 
 @pytest.mark.parametrize("name", CHAINS)
-def test_predicted_errors_are_never_too_small_on_a_proved_chain_and_not_useless(name):
+def test_predicted_errors_bound_true_errors_and_are_not_useless(name):
     certificate = Certificate.load(CERTIFICATES / f"{name}.json.gz")
     run, compared, predictions = beside_proof(certificate)
     n = compared.transitions_right
@@ -56,8 +56,7 @@ def test_predicted_errors_are_never_too_small_on_a_proved_chain_and_not_useless(
     moving = predicted[:n] > 0.0
     actual = np.maximum.accumulate(compared.time_errors[known[:n]])[moving]
     assert (actual / np.maximum.accumulate(predicted)[moving]).max() > 1 / PESSIMISM
-    # The tolerance is met for longer than half of the time that the run is really
-    # right.
+    # The horizon is longer than half of the time for which the run is right.
     wrong = run.transitions["time"][:n][compared.time_errors > TOLERANCE]
     right_until = min(*wrong[:1], compared.first_difference, run.duration)
     horizon = predictions.horizon(TOLERANCE)
@@ -67,7 +66,7 @@ def test_predicted_errors_are_never_too_small_on_a_proved_chain_and_not_useless(
 
 
 def test_predicted_errors_hold_where_stops_are_nearly_missed():
-    """Sliding block 1 nearly keeps the drive's speed, as friction hardly drops."""
+    """Block 1 slides at nearly the speed of the drive, because friction hardly drops."""
     exact = ExactChain.from_slider(
         8, theta="0.6", drive_stiffness=19e6, drive_velocity="8e-3", mu_k="0.69973"
     )
@@ -76,9 +75,7 @@ def test_predicted_errors_hold_where_stops_are_nearly_missed():
 
 
 @pytest.mark.parametrize(("miss", "is_lost"), [(1e-8, True), (1e-3, False)])
-def test_a_standstill_missed_by_less_than_the_error_ends_the_horizon(
-    miss, is_lost, monkeypatch
-):
+def test_near_standstill_within_the_error_ends_the_horizon(miss, is_lost, monkeypatch):
     monkeypatch.setattr(module, "EPS", 1e-9)
     chain = SLIDER(n_blocks=1, mu_k=0.70, drive_velocity=0.01)
     # About steady sliding the velocity swings from nearly 2 V down to `miss` V, half a
@@ -95,7 +92,7 @@ def test_a_standstill_missed_by_less_than_the_error_ends_the_horizon(
 
 
 @pytest.mark.parametrize("load", [1e-13, 1e-14])
-def test_a_load_that_rounding_hides_ends_the_horizon_before_its_first_stop(load):
+def test_load_hidden_by_rounding_ends_the_horizon_early(load):
     run = simulate(SLIDER(n_blocks=3, theta=1 - load), 1e-3)
     # At 1e-13 the run turns block 1 there, which should stick, and so do its neighbours.
     assert predicted_errors(run).order_known_until < run.transitions["time"][1]
@@ -110,7 +107,7 @@ def test_a_mirror_symmetric_start_ends_the_horizon_at_its_tie():
     assert predicted_errors(run).horizon(1.0) <= run.transitions["time"][4]
 
 
-def test_what_comes_later_does_not_change_the_horizon():
+def test_later_motion_does_not_change_the_horizon():
     chain = SLIDER(theta="5/6", drive_velocity=0.01)
     whole = predicted_errors(simulate(chain, 0.16))
     part = predicted_errors(simulate(chain, 0.05))
@@ -120,7 +117,7 @@ def test_what_comes_later_does_not_change_the_horizon():
         assert part.horizon(tolerance) == pytest.approx(expected, rel=1e-6)
 
 
-def test_the_horizon_ends_where_the_first_error_beyond_the_tolerance_may_begin():
+def test_horizon_ends_at_the_first_error_beyond_the_tolerance():
     errors = PredictedErrors(
         np.array([1.0, 2.0, 2.1]), np.array([1e-12, 1e-3, 0.5]), 3.0, np.inf
     )
@@ -133,19 +130,19 @@ def test_a_tolerance_must_be_a_positive_number():
         horizon(simulate(SLIDER(), 0.1), 0.0)
 
 
-def test_the_last_transition_of_a_run_that_ends_with_it_is_known():
+def test_error_of_the_last_transition_of_a_run_is_known():
     assert np.isfinite(
         predicted_errors(first_transitions(SLIDER(), 5)).time_error
     ).all()
 
 
-def test_what_moves_at_the_start_has_no_error():
+def test_blocks_moving_at_the_start_have_no_error():
     run = simulate(SLIDER(), 0.01, start_velocities=np.full(10, 1e-3))
     error = predicted_errors(run).time_error
     assert (error[:10] == 0.0).all()
     assert (error[10:] > 0.0).all()
 
 
-def test_a_block_without_a_load_has_none_in_a_neighbour_either():
+def test_weightless_block_stays_weightless_in_neighbours():
     others = neighbours(simulate(SLIDER(theta=-1), 0.1))
     assert {one.chain.weights[-1] for one in others} == {0.0}

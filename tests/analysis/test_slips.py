@@ -34,7 +34,7 @@ def random_chain(rng: np.random.Generator) -> Chain:
 
 
 def random_transitions(rng: np.random.Generator) -> Record:
-    """A list of transitions that obeys no mechanics: rests without duration, turns, an
+    """Make transitions that no mechanics would give: rests without duration, turns, an
     unfinished event."""
     n_blocks = int(rng.integers(1, 5))
     n = int(rng.integers(1, 40))
@@ -52,14 +52,14 @@ def random_transitions(rng: np.random.Generator) -> Record:
 
 
 def without_load(run, share=0.0):
-    """The same transitions, of a chain whose last block bears no load, or a share of
-    that of the others."""
+    """Return the same transitions on a chain whose last block bears only a share of its
+    load."""
     weights = run.chain.weights.copy()
     weights[-1] *= share
     return replace(run, chain=replace(run.chain, weights=weights))
 
 
-def test_any_list_of_transitions_has_the_events_of_the_definition():
+def test_slip_events_follow_the_definition_for_any_transitions():
     rng = np.random.default_rng(5)
     runs = [random_transitions(rng) for _ in range(120)]
     runs += [without_load(run) for run in runs if run.chain.n_blocks > 1]
@@ -72,7 +72,7 @@ def test_any_list_of_transitions_has_the_events_of_the_definition():
         np.testing.assert_array_equal(events.tolist(), expected.tolist())
 
 
-def test_a_load_below_1e_4_of_the_mean_has_the_events_of_none():
+def test_block_below_1e_4_of_the_mean_load_counts_as_weightless():
     run = simulate(Chain.from_slider(9), 3.0)
     none, next_to_none, light, even = (
         slip_events(without_load(run, share))["front"].tolist()
@@ -81,7 +81,7 @@ def test_a_load_below_1e_4_of_the_mean_has_the_events_of_none():
     assert none == next_to_none != light == even
 
 
-def test_short_events_are_dropped_equal_ones_kept_and_nothing_after_the_global_slip():
+def test_precursors_exclude_short_events_and_later_slips():
     slips = find_slips(simulate(Chain.from_slider()))
     fronts = [1, 2, 3, 4, 5, 2, 6, 4, 3, 8, 3, 9, 8, 3, 1, 10]
     assert slips.front[:16].tolist() == fronts
@@ -90,7 +90,7 @@ def test_short_events_are_dropped_equal_ones_kept_and_nothing_after_the_global_s
     assert find_precursors(equal).index[:3].tolist() == [0, 1, 3]
 
 
-def test_the_slip_table_has_the_events_with_units_and_lengths_in_metres():
+def test_slip_table_has_units_and_lengths_in_metres():
     run = random_transitions(np.random.default_rng(1))
     run = replace(run, chain=replace(run.chain, length=0.3))
     table = slip_table(run)

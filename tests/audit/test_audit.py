@@ -1,5 +1,4 @@
-"""The auditor: it passes what is a motion of the model and finds each kind of
-falsification."""
+"""The audit accepts motions of the model and detects each kind of mistake."""
 
 import copy
 import math
@@ -18,10 +17,10 @@ from precursors.audit import audit, carried, conditions, motion
 from precursors.audit.checks import MAX_PROBLEMS, Auditor
 from precursors.model.chain import remember_theta
 
-# What an exact run of the paper's scenes is off by at most, in roundings; 16
-# may pass.
+# Largest deviation of an exact run of the paper's scenes, in roundings; the audit
+# allows 16.
 FEW_ROUNDINGS = 4.0
-# A mistake in a time that has to be found: a ten-thousandth of the shortest slip [s].
+# A mistake in a time that the audit must report: a ten-thousandth of the shortest slip [s].
 SHIFT = 1e-9
 # Positions that overload some blocks either way [m]
 STRAINED = 1e-5 * np.sin(np.arange(10.0))
@@ -36,7 +35,7 @@ def uniform() -> Run:
 @pytest.mark.parametrize(
     "chain", [SLIDER(theta="-5/6"), SLIDER(theta="5/6"), SLIDER(200)], ids=str
 )
-def test_an_exact_run_is_a_motion_of_the_model_to_few_roundings(chain):
+def test_exact_run_passes_the_audit_within_a_few_roundings(chain):
     run = first_transitions(chain, 300)
     report = audit(run)
     report.raise_if_failed()
@@ -45,7 +44,7 @@ def test_an_exact_run_is_a_motion_of_the_model_to_few_roundings(chain):
 
 
 @pytest.mark.parametrize(("dip", "is_motion"), [(1e-6, False), (-1e-6, True)])
-def test_a_dip_that_lies_between_all_first_probes_is_found(dip, is_motion):
+def test_audit_detects_a_dip_between_its_first_probes(dip, is_motion):
     """One block without friction: v = V + (u - V) cos(omega t) touches zero at start
     velocity u = 2 V.
 
@@ -63,13 +62,12 @@ def test_a_dip_that_lies_between_all_first_probes_is_found(dip, is_motion):
     assert report.ok == is_motion
     if not is_motion:
         (problem,) = report.problems
-        found = float(problem.removesuffix(" m/s").split()[-1])
-        assert found == pytest.approx(chain.drive_velocity * dip, rel=0.5)
+        depth = float(problem.removesuffix(" m/s").split()[-1])
+        assert depth == pytest.approx(chain.drive_velocity * dip, rel=0.5)
 
 
-def test_the_bound_on_fourth_derivatives_holds(monkeypatch):
-    """From random states: slopes are the derivatives of the values, and none bends more
-    than the bound."""
+def test_bound_on_fourth_derivatives_holds(monkeypatch):
+    """From random states, slopes are also the derivatives of the values."""
     for module in (carried, conditions, motion):  # compiling them takes longer
         for name, function in vars(module).copy().items():
             if hasattr(function, "py_func"):
@@ -90,12 +88,12 @@ def test_the_bound_on_fourth_derivatives_holds(monkeypatch):
         of_modes = carried.motion_of(state, rows, modes)
         of_blocks = conditions.concerned(state, rows)
         of = conditions.conditions_of(of_modes, state, rows, modes, *of_blocks)
-        found = []
+        pairs = []
         for s in seconds:
             conditions.take_modes(of_modes, s, modal)
             columns = range(len(of.fourth))
-            found.append([conditions.value_and_slope(of, c, s, modal) for c in columns])
-        values, slopes = np.moveaxis(found, 2, 0)
+            pairs.append([conditions.value_and_slope(of, c, s, modal) for c in columns])
+        values, slopes = np.moveaxis(pairs, 2, 0)
         rounding = 1e-14 * abs(values).max(axis=0)
         fourth = abs(np.diff(values, 4, axis=0) / step**4).max(axis=0)
         assert np.all(fourth <= of.fourth + rounding / step**4)
@@ -108,9 +106,9 @@ def test_the_bound_on_fourth_derivatives_holds(monkeypatch):
         )
 
 
-def test_no_function_is_below_its_bound_in_a_cell_and_one_with_a_constant_fourth_derivative_reaches_it():
-    """A cubic, known by its values and slopes at both ends, less M s^2 (d - s)^2 /
-    24."""
+def test_lower_bound_of_a_cell_holds_and_is_sharp():
+    """The bound is sharp for a cubic with given values and slopes at both ends, less M
+    s^2 (d - s)^2 / 24."""
     cells = np.random.default_rng(4).normal(size=(4, 2000))
     cells[:, 0] = 0.0
     width = 0.3
@@ -129,8 +127,9 @@ def test_no_function_is_below_its_bound_in_a_cell_and_one_with_a_constant_fourth
     assert of_cubics == pytest.approx(cells.min(axis=0), abs=1e-12)
 
 
-def test_an_audit_that_takes_too_much_work_ends_and_says_where(uniform, monkeypatch):
-    """A slide of a soft drive is long against the fastest mode, and takes many cells."""
+def test_audit_that_takes_too_much_work_reports_where_it_ends(uniform, monkeypatch):
+    """With a soft drive, a slide is long compared with the fastest mode and takes many
+    cells."""
     monkeypatch.setattr(sys.modules[Auditor.__module__], "MAX_VALUES", 20_000)
     audit(simulate(uniform.chain, 0.35 + 1e-3)).raise_if_failed()
     report = audit(simulate(replace(uniform.chain, drive_stiffness=1.0), 5e6))
@@ -142,16 +141,15 @@ def test_an_audit_that_takes_too_much_work_ends_and_says_where(uniform, monkeypa
 
 
 def without(run: Run, *removed: int) -> Run:
-    """The run with some of its transitions left out: their intervals join the next
-    one."""
+    """Remove transitions from a run and add their intervals to the next one."""
     instant = np.concatenate([[0.0], np.cumsum(run.intervals)])
     intervals = np.delete(run.intervals, removed)
-    kept = np.delete(np.arange(len(run.transitions)), removed)
-    for k, number in enumerate([*kept, len(run.transitions)]):
-        before = kept[k - 1] if k else -1
+    remaining = np.delete(np.arange(len(run.transitions)), removed)
+    for k, number in enumerate([*remaining, len(run.transitions)]):
+        before = remaining[k - 1] if k else -1
         if number != before + 1:
             intervals[k] = instant[number + 1] - instant[before + 1]
-    return replace(run, transitions=run.transitions[kept], intervals=intervals)
+    return replace(run, transitions=run.transitions[remaining], intervals=intervals)
 
 
 def changed(run: Run, k: int, **values) -> Run:
@@ -162,7 +160,7 @@ def changed(run: Run, k: int, **values) -> Run:
 
 
 def shifted(run: Run, k: int, seconds: float) -> Run:
-    """The run with one transition, and its recorded time, moved."""
+    """Move one transition of a run and its recorded time."""
     run = changed(run, k, time=run.transitions["time"][k] + seconds)
     intervals = run.intervals.copy()
     intervals[k : k + 2] += seconds, -seconds
@@ -170,13 +168,13 @@ def shifted(run: Run, k: int, seconds: float) -> Run:
 
 
 def next_of_block(run: Run, k: int) -> int:
-    """Number of the next transition of the block of transition k."""
+    """Return the number of the next transition of the same block."""
     block = run.transitions["block"]
     return k + 1 + int(np.argmax(block[k + 1 :] == block[k]))
 
 
 def falsified(uniform: Run) -> Iterator[tuple[Run, str]]:
-    """Runs with one mistake each, and what the auditor says of them first."""
+    """Yield runs with one mistake each, and the first problem that the audit reports."""
     stop, stick = np.flatnonzero(uniform.transitions["mode"] == 0)[[0, 4]]
     yield shifted(uniform, 0, SHIFT), "block 1 is stuck, pushed forward beyond mu_s w"
     yield shifted(uniform, stop, SHIFT), r"block 1 slides against its mode \+1"
@@ -221,7 +219,7 @@ def falsified(uniform: Run) -> Iterator[tuple[Run, str]]:
 
 
 def falsified_states(run: Run) -> Iterator[tuple[Run, str]]:
-    """Runs with one mistake each in what `at` starts from."""
+    """Yield runs with one mistake each in the stored states, from which `at` starts."""
     states = run.states
     for name, words in [
         ("force", "state 1 has a force of block . that is wrong by .* N"),
@@ -243,12 +241,12 @@ def falsified_states(run: Run) -> Iterator[tuple[Run, str]]:
     yield replace(run, states=single), "force is of type float32 and not float64"
 
 
-def test_each_kind_of_mistake_is_found_and_told_as_it_was(uniform):
+def test_audit_names_each_kind_of_mistake(uniform):
     for run, words in falsified(uniform):
         assert re.search(words, audit(run).problems[0])
 
 
-def test_sixteen_roundings_of_a_load_are_allowed_and_1e_12_of_a_time():
+def test_audit_allows_16_roundings_of_load_and_1e_12_of_time():
     run = simulate(SLIDER(), 1.0)
     time, load = run.transitions[["time", "tangential_load"]][5]
     wrong = audit(changed(run, 5, tangential_load=load + 1e-3), roundings=1e20)
@@ -261,7 +259,7 @@ def test_sixteen_roundings_of_a_load_are_allowed_and_1e_12_of_a_time():
             assert audit(changed(run, 5, **mistake)).ok == (roundings < 16)
 
 
-def test_a_caller_sets_the_tolerance_for_an_approximate_run(uniform):
+def test_tolerance_can_be_set_for_an_approximate_run(uniform):
     run = shifted(uniform, 0, SHIFT)
     with pytest.raises(ArithmeticError, match="no motion"):
         audit(run).raise_if_failed()
@@ -270,9 +268,9 @@ def test_a_caller_sets_the_tolerance_for_an_approximate_run(uniform):
         audit(run, roundings=0.0)
 
 
-def test_positions_far_from_zero_are_known_to_their_rounding():
-    """Blocks 1 and 4 start at their limits; the soft drive is so far away that rounding
-    moves them beyond."""
+def test_positions_far_from_zero_are_judged_by_their_rounding():
+    """Blocks 1 and 4 start at their limits. The soft drive is so far away that rounding
+    pushes them beyond."""
     chain = SLIDER(n_blocks=5, drive_stiffness=25.0)
     pushes = 0.1 + 0.01 * np.arange(5)
     pushes[[0, 3]] = chain.strength[[0, 3]] * [1, -1]
@@ -290,7 +288,7 @@ def test_arrays_that_do_not_fit_are_one_problem_and_no_crash(uniform):
     assert "transition 7 has block 11, mode 1: there is no such" in problem
 
 
-def test_the_report_says_what_was_found_in_a_few_lines(uniform):
+def test_report_is_a_few_lines_and_refuses_a_chain(uniform):
     assert "is a motion of the model: 217 intervals" in str(audit(uniform))
     spoiled = audit(replace(uniform, chain=replace(uniform.chain, mu_s=0.6)))
     assert len(spoiled.problems) <= MAX_PROBLEMS

@@ -1,4 +1,4 @@
-"""Transitions of a run that nobody computed, and proofs that are made step by step."""
+"""Invented transitions of a run, and proofs that are advanced step by step."""
 
 from collections.abc import Sequence
 from fractions import Fraction
@@ -27,8 +27,8 @@ TRUE = [
     (3.5, 2, 0, 101.0),
     (3.625, 3, 0, 101.5),
 ]
-# Seven blocks, the middle one pushed aside: blocks 2 and 6 are released at the same
-# instant, by symmetry.
+# Seven blocks with the middle one displaced: by symmetry, blocks 2 and 6 are released at
+# the same instant.
 SYMMETRIC_START = ["0", "0", "0", "1e-5", "0", "0", "0"]
 
 
@@ -37,21 +37,24 @@ def made_up(rows) -> Record:
     return Record.from_columns(CHAIN, DURATION, time, block, mode, load)
 
 
-def has_all_transitions(found: Comparison) -> bool:
-    """Whether a run has the transitions of the truth in their order, and no other."""
-    return found.transitions_right == found.transitions_found == found.transitions_true
+def has_all_transitions(comparison: Comparison) -> bool:
+    """Whether a run has exactly the transitions of the truth, in the same order."""
+    return (
+        comparison.transitions_right
+        == comparison.transitions_found
+        == comparison.transitions_true
+    )
 
 
 @cache
 def tied_certificate() -> Certificate:
-    """A proof that ends with a tie."""
+    """Return a certificate that ends with a tie."""
     chain = ExactChain.from_slider(n_blocks=7)
     return certify(chain, 1, start_positions=SYMMETRIC_START, max_bits=1024)
 
 
 def proof_of(chain: ExactChain, bits: int, positions: Sequence[Fraction] = ()) -> Proof:
-    """A proof that has not begun, from rest; springs are unstrained if nothing is
-    given."""
+    """Return a proof at its start, from rest; by default with unstrained springs."""
     rest = (Fraction(0),) * chain.n_blocks
     start = tuple(positions) or rest, rest
     return Proof(
@@ -60,5 +63,5 @@ def proof_of(chain: ExactChain, bits: int, positions: Sequence[Fraction] = ()) -
 
 
 def go_on(proof: Proof) -> None:
-    """Take the next step of a proof."""
+    """Advance a proof by one step."""
     assert proof.slide() if any(proof.state.mode) else proof.load()

@@ -1,4 +1,4 @@
-"""A run is compared with the truth transition by transition."""
+"""Comparison of a run with the truth, transition by transition."""
 
 import math
 from fractions import Fraction
@@ -18,17 +18,16 @@ from precursors.benchmark.compare import Truth, compare, until_global_slip
 
 
 def altered(*changes, shift: float = 0.0, after: int = len(TRUE)) -> list[tuple]:
-    """The true rows with others in some places, and times shifted in and after one of
-    them."""
+    """Replace some of the true rows, and shift the times from row `after` on."""
     rows = [(t + shift * (k >= after), *rest) for k, (t, *rest) in enumerate(TRUE)]
     for k, row in changes:
         rows[k] = row
     return rows
 
 
-# A run, its right transitions, its largest errors [s, N], and when it first
-# differs [s].
-FOUND = {
+# Rows of a run, number of right transitions, largest errors [s, N], and time of the
+# first difference [s].
+COMPARED = {
     "the truth": (TRUE, 12, 0.0, 0.0, math.inf),
     "late, and once early": (
         altered((4, (2.21875, *TRUE[4][1:])), shift=0.015625, after=0),
@@ -68,9 +67,9 @@ FOUND = {
 
 
 @pytest.mark.parametrize(
-    ("rows", "n", "time", "load", "differs"), FOUND.values(), ids=FOUND
+    ("rows", "n", "time", "load", "differs"), COMPARED.values(), ids=COMPARED
 )
-def test_what_is_right_ends_with_the_first_difference(rows, n, time, load, differs):
+def test_right_transitions_end_with_the_first_difference(rows, n, time, load, differs):
     of = compare(made_up(rows), Truth.exact(CHAIN, DURATION, TRUE))
     assert of.transitions_right == n
     assert (of.transitions_found, of.transitions_true) == (len(rows), 12)
@@ -79,14 +78,14 @@ def test_what_is_right_ends_with_the_first_difference(rows, n, time, load, diffe
     )
 
 
-def test_digits_that_doubles_do_not_hold_count_too():
+def test_digits_beyond_double_precision_count():
     beyond = Fraction(1, 2**60)
     exact = [(Fraction(t) + beyond, b, m, Fraction(f) - beyond) for t, b, m, f in TRUE]
-    found = compare(made_up(TRUE), Truth.exact(CHAIN, DURATION, exact))
-    assert (found.time_error, found.load_error) == (2.0**-60, 2.0**-60)
+    comparison = compare(made_up(TRUE), Truth.exact(CHAIN, DURATION, exact))
+    assert (comparison.time_error, comparison.load_error) == (2.0**-60, 2.0**-60)
 
 
-def test_runs_of_other_chains_are_refused():
+def test_run_with_another_number_of_blocks_is_refused():
     with pytest.raises(ValueError, match="as many blocks as the truth, 3, but has 4"):
         compare(
             simulate(Chain.from_slider(n_blocks=4), 0.1),
@@ -94,7 +93,7 @@ def test_runs_of_other_chains_are_refused():
         )
 
 
-def test_a_run_cut_at_the_global_slip_is_what_a_run_until_it_has():
+def test_run_cut_at_the_global_slip_equals_a_run_until_it():
     cut = until_global_slip(simulate(Chain.from_slider(), 10.0))
     run = simulate(Chain.from_slider(), 10.0, "global slip")
     np.testing.assert_array_equal(cut.transitions, run.transitions)
@@ -104,7 +103,7 @@ def test_a_run_cut_at_the_global_slip_is_what_a_run_until_it_has():
         assert until_global_slip(unfinished) is unfinished
 
 
-def test_a_proof_that_ends_with_a_tie_is_the_truth_up_to_there():
+def test_proof_that_ends_with_a_tie_is_the_truth_up_to_the_tie():
     certificate = tied_certificate()
     assert certificate.tie
     truth = Truth.proved(certificate)

@@ -1,4 +1,4 @@
-"""Result files are scored against the proved lists; wrong ones are told in a line."""
+"""Result files are scored against the proved lists; wrong ones are refused in one line."""
 
 import re
 from functools import cache
@@ -11,21 +11,21 @@ from precursors.analysis.slips import find_slips
 from precursors.benchmark.score import problems, score, solution
 
 HEADER = "time_s,block,mode,tangential_load_N"
-# Largest error of a number that is rounded to a double, below 16 s and 512 N.
+# Largest rounding errors of doubles below 16 s and 512 N.
 ROUNDING_S = 2.0**-50
 ROUNDING_N = 2.0**-45
 
 
 @cache
 def true_rows(problem: str = "uniform") -> tuple[str, ...]:
-    """The proved list as a result file, with times and loads rounded once."""
+    """Return the rows of a result file with the proved list, rounded to doubles."""
     rows = solution(problem).run.transitions.tolist()
     return tuple(",".join(map(repr, row)) for row in rows)
 
 
 @pytest.fixture
 def scored(tmp_path: Path):
-    """Score the lines of a result file."""
+    """Write the lines of a result file and score it."""
 
     def of(*lines: str, problem: str = "uniform", ties: float = 0.0):
         path = tmp_path / "mine.csv"
@@ -36,28 +36,28 @@ def scored(tmp_path: Path):
 
 
 @pytest.mark.parametrize("problem", problems())
-def test_the_list_itself_is_right_to_rounding(scored, problem):
+def test_proved_list_scores_right_to_rounding(scored, problem):
     rows = true_rows(problem)
-    found = scored(HEADER, *rows, problem=problem)
-    assert found["transitions_right"] == found["transitions_true"] == len(rows)
-    assert found["first_wrong"] == found["should_be"] == "none"
-    assert found["time_error_s"] <= ROUNDING_S
-    assert found["load_error_N"] <= ROUNDING_N
-    assert found["mu_sapp"] == found["mu_sapp_true"]
-    assert found["events_counted"] == found["events_counted_true"]
+    result = scored(HEADER, *rows, problem=problem)
+    assert result["transitions_right"] == result["transitions_true"] == len(rows)
+    assert result["first_wrong"] == result["should_be"] == "none"
+    assert result["time_error_s"] <= ROUNDING_S
+    assert result["load_error_N"] <= ROUNDING_N
+    assert result["mu_sapp"] == result["mu_sapp_true"]
+    assert result["events_counted"] == result["events_counted_true"]
 
 
-def test_a_score_ends_with_the_first_wrong_transition(scored):
+def test_score_ends_with_the_first_wrong_transition(scored):
     rows = [*true_rows()]
     rows[700] = rows[700].replace(",1,", ",3,", 1).replace(",0,", ",-1,")
     time, block, mode, _ = true_rows()[700].split(",")
-    found = scored(HEADER, *rows)
-    assert found["transitions_right"] == 700
+    result = scored(HEADER, *rows)
+    assert result["transitions_right"] == 700
     truth = f"block {block} to mode {mode} at {float(time):.12g} s"
-    assert found["should_be"] == truth != found["first_wrong"]
+    assert result["should_be"] == truth != result["first_wrong"]
 
 
-def test_errors_are_those_before_the_first_wrong_transition_and_the_global_slip(scored):
+def test_errors_stop_at_the_first_wrong_transition(scored):
     rows = [row.split(",") for row in true_rows()]
     end = solution("uniform").until_global_slip().run.duration
     later = next(k for k, row in enumerate(rows) if float(row[0]) > end)
@@ -69,16 +69,16 @@ def test_errors_are_those_before_the_first_wrong_transition_and_the_global_slip(
             row[3] = repr(float(row[3]) + 0.5)
     rows[later + 50][2] = "-1"
     rows[later + 60][0] = repr(float(rows[later + 60][0]) + 1e-9)
-    found = scored(HEADER, *[",".join(row) for row in rows])
-    assert found["transitions_right"] == later + 50
-    assert found["time_error_s"] == pytest.approx(2.0**-20, abs=ROUNDING_S)
-    assert found["time_error_to_global_slip_s"] == pytest.approx(
+    result = scored(HEADER, *[",".join(row) for row in rows])
+    assert result["transitions_right"] == later + 50
+    assert result["time_error_s"] == pytest.approx(2.0**-20, abs=ROUNDING_S)
+    assert result["time_error_to_global_slip_s"] == pytest.approx(
         2.0**-30, abs=ROUNDING_S
     )
-    assert found["load_error_to_global_slip_N"] == pytest.approx(0.5, abs=ROUNDING_N)
+    assert result["load_error_to_global_slip_N"] == pytest.approx(0.5, abs=ROUNDING_N)
 
 
-def test_ties_may_stand_in_any_order_within_the_tolerance_only(scored):
+def test_ties_may_be_in_any_order_only_within_the_tolerance(scored):
     rows = [*true_rows("trailing")]
     times = [float(row.split(",")[0]) for row in rows]
     gaps = [b - a for a, b in pairwise(times)]
@@ -94,13 +94,13 @@ def test_ties_may_stand_in_any_order_within_the_tolerance_only(scored):
     assert scored(HEADER, *rows, **ask, ties=1e-9)["transitions_right"] == len(rows)
 
 
-def test_two_transitions_of_one_block_are_no_tie(scored):
+def test_two_transitions_of_one_block_are_not_a_tie(scored):
     rows = true_rows()[:2]  # block 1 begins to slide, and stops
     turned = [rows[0].replace(",1,1,", ",1,-1,"), rows[1]]
     assert scored(HEADER, *turned, ties=1.0)["transitions_right"] == 0
 
 
-def test_files_are_read_as_solvers_write_them(scored):
+def test_result_files_are_read_in_each_format(scored):
     rows = true_rows()[:60]
     plain = scored(HEADER, *rows)
     assert plain["transitions_right"] == 60
@@ -127,15 +127,15 @@ def test_files_are_read_as_solvers_write_them(scored):
 
 
 def test_rows_after_the_duration_are_ignored(scored):
-    found = scored(HEADER, *true_rows(), "10.5,1,1,200")
-    assert found["first_wrong"] == "none"
-    assert found["ends_s"] == 10.5
+    result = scored(HEADER, *true_rows(), "10.5,1,1,200")
+    assert result["first_wrong"] == "none"
+    assert result["ends_s"] == 10.5
 
 
 @pytest.mark.parametrize(
     ("column", "factor"), [(0, 1e3), (0, 1e-6), (0, 1 / 60), (3, 1e-3)]
 )
-def test_other_units_are_refused(scored, column, factor):
+def test_times_or_loads_in_other_units_are_refused(scored, column, factor):
     rows = [row.split(",") for row in true_rows()[:9]]
     for row in rows:
         row[column] = repr(float(row[column]) * factor)
@@ -143,7 +143,7 @@ def test_other_units_are_refused(scored, column, factor):
         scored(HEADER, *map(",".join, rows))
 
 
-def test_a_list_that_ends_early_says_where(scored):
+def test_score_reports_where_a_short_list_ends(scored):
     assert scored(HEADER, *true_rows()[:90])["ends_s"] == float(
         true_rows()[89].split(",")[0]
     )
@@ -153,10 +153,10 @@ def test_a_list_that_ends_early_says_where(scored):
 
 ROW = "0.35,1,1,28"
 WRONG = {
-    "no rows": ([HEADER], "mine.csv: no transition stands below the header"),
+    "no rows": ([HEADER], "mine.csv: there is no transition below the header"),
     "no modes": (
         ["time_s,block,tangential_load_N"],
-        "mode must be once in the header, not 0 times",
+        "mode must occur once in the header, not 0 times",
     ),
     "a short row": (
         [HEADER, ROW, "0.4,1,0"],
@@ -176,13 +176,13 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize(("lines", "told"), WRONG.values(), ids=WRONG)
-def test_a_wrong_file_is_told_in_one_line(scored, lines, told):
-    with pytest.raises(ValueError, match=re.escape(told)) as caught:
+@pytest.mark.parametrize(("lines", "message"), WRONG.values(), ids=WRONG)
+def test_malformed_result_file_is_refused_in_one_line(scored, lines, message):
+    with pytest.raises(ValueError, match=re.escape(message)) as caught:
         scored(*lines)
     assert "\n" not in str(caught.value)
 
 
-def test_an_unknown_problem_is_told_with_those_there_are(scored):
+def test_unknown_problem_is_refused_with_the_list_of_problems(scored):
     with pytest.raises(ValueError, match=r"unifrom: the problems are .*, uniform"):
         scored(HEADER, problem="unifrom")

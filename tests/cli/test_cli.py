@@ -1,5 +1,5 @@
-"""The command line: what each command prints and returns, one line for every error, a
-start at once."""
+"""The command line: output and exit code of each command, errors of one line, and a
+fast start."""
 
 import inspect
 import io
@@ -32,19 +32,18 @@ from precursors.figures.run import plot
 HEAVY = {"numpy", "numba", "pandas", "h5py", "matplotlib", "scipy"}
 COMMAND = [sys.executable, "-m", "precursors"]  # which is precursors/__main__.py
 CODES = [0, 1, 2, 3, 4, 130]
-SEVEN_DIGITS = 5e-7  # relative, of what is printed
+SEVEN_DIGITS = 5e-7  # relative error of printed numbers
 
 
 @pytest.fixture(scope="session")
 def _compiled():
-    """The solver, which says so on standard error when it is compiled."""
+    """Compile the solver, which would print a note on standard error."""
     simulate(Chain.from_slider(), 0.4).at([0.4])
 
 
 @pytest.fixture
 def cli(capsys, _compiled):
-    """Run a command; return its exit code, and what it wrote to standard output and
-    standard error."""
+    """Run a command; return its exit code, standard output and standard error."""
 
     def run(*arguments):
         try:
@@ -66,31 +65,31 @@ def run_file(tmp_path_factory):
 # Start-up and help
 
 
-def test_help_loads_nothing_heavy_and_lists_the_exit_codes():
+def test_help_imports_nothing_heavy_and_lists_exit_codes():
     program = (
         "import sys\nfrom precursors.cli import main\n"
         "try: main(['--help'])\nfinally: print(*sys.modules)"
     )
-    told = subprocess.run(
+    process = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     )
-    assert not HEAVY & set(told.stdout.split())
-    codes = told.stdout.partition("exit codes:")[2].splitlines()
+    assert not HEAVY & set(process.stdout.split())
+    codes = process.stdout.partition("exit codes:")[2].splitlines()
     assert [int(line.split()[0]) for line in codes[1:7]] == CODES
 
 
-def test_without_a_command_the_help_is_printed(cli):
-    code, told, err = cli()
+def test_help_is_printed_without_a_command(cli):
+    code, out, err = cli()
     assert (code, err) == (2, "")
-    assert told.startswith("usage: precursors COMMAND [options]\n")
+    assert out.startswith("usage: precursors COMMAND [options]\n")
 
 
-def test_the_help_of_a_command_states_the_defaults_of_the_library(cli):
-    code, told, _ = cli("plot", "--help")
-    told = " ".join(told.split())
+def test_help_of_a_command_states_the_library_defaults(cli):
+    code, out, _ = cli("plot", "--help")
+    out = " ".join(out.split())
     parameters = inspect.signature(Chain.from_slider).parameters
     for name, meaning in CHAIN.items():
-        assert f"{meaning} ({parameters[name].default:g})" in told
+        assert f"{meaning} ({parameters[name].default:g})" in out
     assert code == 0
     assert parameters.keys() - CHAIN.keys() == {"theta", "n_blocks", "weights"}
 
@@ -98,22 +97,22 @@ def test_the_help_of_a_command_states_the_defaults_of_the_library(cli):
 @pytest.mark.parametrize(
     "example", re.findall(r"^  precursors (.*?)(?:   .*)?$", EPILOG, re.MULTILINE)
 )
-def test_the_examples_of_the_help_are_read(example):
+def test_examples_in_the_help_are_valid(example):
     read_options(example.split())
 
 
-def test_the_version_is_told_with_the_commit_of_a_checkout(cli, monkeypatch):
+def test_version_includes_the_commit_of_a_checkout(cli, monkeypatch):
     state = {"commit": "abc", "swh_revision": "rev", "swh_directory": "dir"}
     monkeypatch.setattr(
         commands,
         "git_state",
         lambda place: state | {"changed": True} if place == ROOT else None,
     )
-    told = f"precursors {version('precursors')}\ncommit abc, and files have changed since\n"
-    assert cli("--version") == (0, f"{told}rev\ndir\n", "")
+    text = f"precursors {version('precursors')}\ncommit abc, and files have changed since\n"
+    assert cli("--version") == (0, f"{text}rev\ndir\n", "")
     monkeypatch.setattr(commands, "git_state", lambda place: None)
-    told = f"precursors {version('precursors')}\ncommit unknown: it was built without git\n"
-    assert cli("--version") == (0, told, "")
+    text = f"precursors {version('precursors')}\ncommit unknown: it was built without git\n"
+    assert cli("--version") == (0, text, "")
 
 
 # simulate
@@ -136,19 +135,19 @@ transitions            1871
 """
 
 
-def test_simulate_tells_what_a_run_says_and_where_it_is(cli, tmp_path):
+def test_simulate_prints_a_summary_and_the_output_path(cli, tmp_path):
     file = tmp_path / "run.h5"
     options = ("--theta", "-5/6", "--output", file)
     text = (
         f"{SUMMARY}output                 {file}\n\nprecursors plot {file} draws it\n"
     )
     assert cli("simulate", *options) == (0, text, "")
-    told = json.loads(cli("simulate", "--theta=-5/6", "--json")[1])
-    assert [f"{name} {value:.10g}" for name, value in told.items()] == [
+    values = json.loads(cli("simulate", "--theta=-5/6", "--json")[1])
+    assert [f"{name} {value:.10g}" for name, value in values.items()] == [
         " ".join(line.split()) for line in SUMMARY.splitlines()[3:]
     ]
-    told = cli("simulate", "--duration", 0.4)[1]
-    assert told.startswith(
+    out = cli("simulate", "--duration", 0.4)[1]
+    assert out.startswith(
         "1 event counted in Fig. 13, of 1 in 0.4 s; no global slip.\n"
     )
     assert len(Run.load(file).transitions) == 1871
@@ -171,7 +170,7 @@ def test_simulate_tells_what_a_run_says_and_where_it_is(cli, tmp_path):
         ),
     ],
 )
-def test_the_chain_of_the_options_runs_to_its_first_global_slip(
+def test_simulate_runs_the_chain_given_by_options(
     cli, tmp_path, monkeypatch, options, slider
 ):
     monkeypatch.chdir(tmp_path)
@@ -182,29 +181,27 @@ def test_the_chain_of_the_options_runs_to_its_first_global_slip(
     assert Run.load("run.h5").transitions.tolist() == run.transitions.tolist()
 
 
-def test_a_run_that_meets_its_limit_is_kept_in_the_file_that_was_asked_for(
-    cli, tmp_path
-):
+def test_simulate_saves_a_run_that_reaches_its_limit(cli, tmp_path):
     path = tmp_path / "run.h5"
-    told = (
+    message = (
         "precursors simulate: max_transitions = 100 reached at t = 2.29058305 s of 10 s, "
         "last at block 4: raise max_transitions or shorten duration"
     )
     limited = ("simulate", "--max-transitions", 100)
-    assert cli(*limited) == (1, "", f"{told}\n")
-    kept = f"{told}; the run so far is in {path}\n"
-    assert cli(*limited, "--output", path) == (1, "", kept)
+    assert cli(*limited) == (1, "", f"{message}\n")
+    saved = f"{message}; the run so far is in {path}\n"
+    assert cli(*limited, "--output", path) == (1, "", saved)
     assert len(Run.load(path).transitions) == 100
 
 
 # slips
 
 
-def test_slips_lists_the_events_of_a_chain_for_reading(cli, run_file):
+def test_slips_prints_the_events_as_a_table(cli, run_file):
     code, out, err = cli("slips", run_file)
     assert (code, err) == (0, "")
-    told_twice = ["largest_load_N", "front_length_m"]
-    table = slip_table(Run.load(run_file)).drop(columns=[*OF_SLIDER, *told_twice])
+    derived = ["largest_load_N", "front_length_m"]
+    table = slip_table(Run.load(run_file)).drop(columns=[*OF_SLIDER, *derived])
     shown = pd.read_csv(io.StringIO(out), sep=r"\s+")
     pd.testing.assert_frame_equal(shown, table, rtol=SEVEN_DIGITS)
     assert max(map(len, out.splitlines())) < 100
@@ -219,7 +216,7 @@ def test_slips_lists_the_events_of_a_chain_for_reading(cli, run_file):
         ("a.tsv", [], {"sep": "\t"}),
     ],
 )
-def test_the_slips_of_fig_13_go_to_a_file_as_a_spreadsheet_wants_them(
+def test_slips_writes_counted_events_for_a_spreadsheet(
     cli, run_file, tmp_path, name, options, how
 ):
     path = tmp_path / name
@@ -229,7 +226,7 @@ def test_the_slips_of_fig_13_go_to_a_file_as_a_spreadsheet_wants_them(
     pd.testing.assert_frame_equal(pd.read_csv(path, **how), counted)
 
 
-def test_a_reader_that_has_enough_is_no_error():
+def test_closed_output_pipe_is_no_error():
     with subprocess.Popen(
         [*COMMAND, "slips", "--theta", "5/6"],
         stdout=subprocess.PIPE,
@@ -243,7 +240,7 @@ def test_a_reader_that_has_enough_is_no_error():
 # plot
 
 
-def test_a_terminal_without_a_letter_of_a_name_is_no_error(run_file, tmp_path):
+def test_ascii_terminal_can_print_a_unicode_file_name(run_file, tmp_path):
     path = tmp_path / "θ.png"
     done = subprocess.run(
         [*COMMAND, "plot", run_file, "--output", path],
@@ -287,7 +284,7 @@ def test_a_terminal_without_a_letter_of_a_name_is_no_error(run_file, tmp_path):
     ],
     ids=["load", "push", "look", "lengths", "curve"],
 )
-def test_plot_draws_what_the_library_draws_as_it_is_told_to(
+def test_plot_draws_the_same_figure_as_the_library(
     cli, run_file, tmp_path, monkeypatch, options, text, err, asked
 ):
     monkeypatch.chdir(tmp_path)
@@ -295,16 +292,14 @@ def test_plot_draws_what_the_library_draws_as_it_is_told_to(
         Path("data.csv").write_text(text)
         options = [*options, "--data=data.csv"]
         asked = asked | {"data": "data.csv"}
-    told = f"output  {tmp_path / 'a.svg'}\n"
-    assert cli("plot", run_file, *options, "--output=a.svg") == (0, told, err)
+    out = f"output  {tmp_path / 'a.svg'}\n"
+    assert cli("plot", run_file, *options, "--output=a.svg") == (0, out, err)
     look = asked.get("look", style.LOOK)
     style.save(plot(Run.load(run_file), **asked), "b.svg", look)
     assert Path("a.svg").read_bytes() == Path("b.svg").read_bytes()
 
 
-def test_plot_runs_a_chain_and_draws_into_a_file_of_its_own_name(
-    cli, tmp_path, monkeypatch
-):
+def test_plot_without_a_run_file_runs_a_chain(cli, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     code, out, _ = cli(
         "plot", "--theta", "5/6", "--blocks", 3, "--duration", 0.5, "--json"
@@ -313,17 +308,17 @@ def test_plot_runs_a_chain_and_draws_into_a_file_of_its_own_name(
     assert Path("precursors.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_measured_loads_begin_with_the_run_and_without_an_offset(
+def test_measured_loads_are_shifted_to_start_and_offset(
     cli, run_file, tmp_path, monkeypatch
 ):
     monkeypatch.chdir(tmp_path)
     Path("F.csv").write_text("F_X [N]\n5\n5\n60\n70\n")
-    told = (
+    notes = (
         "F.csv: 2 points, t [s] 0 to 0.5, F_X [N] 55 to 65\n"
         "F.csv: 42.9 N rms from the run up to its first global slip\n"
     )
     shift = ("--sample-rate=2", "--data-start=1", "--data-offset=5")
-    assert cli("plot", run_file, "--data=F.csv", *shift)[::2] == (0, told)
+    assert cli("plot", run_file, "--data=F.csv", *shift)[::2] == (0, notes)
     code, _, err = cli("plot", run_file, "--data=F.csv", *shift[:1], "--data-start=9")
     assert (code, err) == (
         2,
@@ -332,7 +327,7 @@ def test_measured_loads_begin_with_the_run_and_without_an_offset(
 
 
 @pytest.mark.parametrize(
-    ("text", "told"),
+    ("text", "reason"),
     [
         (
             "t [s],F_X [N]\n0,4000\n1,4500\n2,5000\n",
@@ -344,18 +339,18 @@ def test_measured_loads_begin_with_the_run_and_without_an_offset(
         ),
     ],
 )
-def test_data_that_hardly_overlap_the_run_are_drawn_and_told(
-    cli, run_file, tmp_path, monkeypatch, text, told
+def test_data_that_hardly_overlap_the_run_give_a_note(
+    cli, run_file, tmp_path, monkeypatch, text, reason
 ):
     monkeypatch.chdir(tmp_path)
     Path("F.csv").write_text(text)
     code, _, err = cli("plot", run_file, "--data=F.csv")
     assert (code, err.count("\n")) == (0, 3)
-    assert f"F.csv hardly overlaps the run: {told}" in err
+    assert f"F.csv hardly overlaps the run: {reason}" in err
     assert "(--data-start says when" in err
 
 
-def test_a_load_curve_and_a_film_are_drawn_with_their_names(
+def test_load_curve_and_front_lengths_are_drawn_with_names(
     cli, run_file, tmp_path, monkeypatch
 ):
     monkeypatch.chdir(tmp_path)
@@ -395,9 +390,7 @@ def test_a_load_curve_and_a_film_are_drawn_with_their_names(
     assert "--data-start must be given once, or once for each of 3 files, but is" in err
 
 
-def test_measured_loads_are_echoed_and_so_named_in_the_figures(
-    cli, tmp_path, monkeypatch
-):
+def test_measured_weights_are_echoed_and_named_in_figures(cli, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("loads.csv").write_text("Last;Ort\n30,0;1\n50,5;2\n40,0;3\n")
     chosen = "--columns=w=Last [N]"
@@ -409,7 +402,7 @@ def test_measured_loads_are_echoed_and_so_named_in_the_figures(
         assert len([text for text in texts if "loads as measured" in text]) == 1
 
 
-def test_a_global_slip_that_roundings_decide_is_told_as_such(cli):
+def test_global_slip_beyond_predictability_gives_a_note(cli):
     code, _, err = cli("slips", "--blocks", 50, "--until-global-slip")
     assert code == 0
     assert re.fullmatch(
@@ -419,20 +412,18 @@ def test_a_global_slip_that_roundings_decide_is_told_as_such(cli):
     )
 
 
-def test_a_light_block_that_decides_what_events_are_is_named(cli, tmp_path):
+def test_light_block_that_changes_the_events_gives_a_note(cli, tmp_path):
     loads = tmp_path / "loads.csv"
     loads.write_text("50\n0.006\n50\n50\n")
-    said = cli("simulate", "--weights", loads, "--duration", 2)[2]
+    err = cli("simulate", "--weights", loads, "--duration", 2)[2]
     line = "block 2, with 0.006 N, keeps events from ending: 7 in all, 10 without it"
-    assert line in said
+    assert line in err
 
 
 # audit
 
 
-def test_audit_refuses_a_damaged_file_and_a_transition_moved_by_a_nanosecond(
-    cli, run_file, tmp_path
-):
+def test_audit_refuses_a_damaged_file_and_a_moved_transition(cli, run_file, tmp_path):
     (tmp_path / "damaged.h5").write_bytes(run_file.read_bytes()[:-1000])
     code, out, err = cli("audit", tmp_path / "damaged.h5", run_file)
     assert (code, out) == (
@@ -453,7 +444,7 @@ def test_audit_refuses_a_damaged_file_and_a_transition_moved_by_a_nanosecond(
     )
 
 
-def test_audit_says_what_is_not_checked_of_an_older_file(cli, run_file, tmp_path):
+def test_audit_notes_that_an_older_file_has_no_checksum(cli, run_file, tmp_path):
     old = tmp_path / "old.h5"
     old.write_bytes(run_file.read_bytes())
     with h5py.File(old, "r+") as file:
@@ -467,7 +458,7 @@ def test_audit_says_what_is_not_checked_of_an_older_file(cli, run_file, tmp_path
     )
 
 
-def test_an_audit_that_meets_its_limit_of_work_is_undecided(cli, run_file, monkeypatch):
+def test_audit_that_reaches_its_work_limit_is_undecided(cli, run_file, monkeypatch):
     checks = import_module("precursors.audit.checks")
     monkeypatch.setattr(checks, "MAX_VALUES", 1000)
     code, out, err = cli("audit", run_file)
@@ -539,15 +530,15 @@ def test_an_audit_that_meets_its_limit_of_work_is_undecided(cli, run_file, monke
         ("score none.csv --problem uniform", 3, "none.csv: No such file"),
     ],
 )
-def test_an_error_is_one_line_that_names_what_is_wrong(cli, arguments, code, about):
-    found, out, err = cli(*shlex.split(arguments))
-    assert (found, out, err.count("\n")) == (code, "", 1)
+def test_error_is_one_line_that_names_what_is_wrong(cli, arguments, code, about):
+    exit_code, out, err = cli(*shlex.split(arguments))
+    assert (exit_code, out, err.count("\n")) == (code, "", 1)
     assert err.startswith("precursors")
     assert about in err
 
 
 @pytest.mark.parametrize(
-    ("error", "code", "told"),
+    ("error", "code", "message"),
     [
         (Refused("two\nlines"), 1, "two lines"),
         (ModuleNotFoundError("no 'flint'"), 4, "no 'flint': install it to use this"),
@@ -555,33 +546,33 @@ def test_an_error_is_one_line_that_names_what_is_wrong(cli, arguments, code, abo
         (OSError(28, "No space left", "run.h5"), 3, "run.h5: No space left"),
     ],
 )
-def test_what_goes_wrong_in_a_command_is_one_line_and_an_exit_code(
-    cli, monkeypatch, error, code, told
+def test_exception_gives_one_line_and_its_exit_code(
+    cli, monkeypatch, error, code, message
 ):
     def fail(_):
         raise error
 
     monkeypatch.setattr(commands, "audit", fail)
-    assert cli("audit", "run.h5") == (code, "", f"precursors audit: {told}\n")
+    assert cli("audit", "run.h5") == (code, "", f"precursors audit: {message}\n")
     error = RuntimeError("of a library, which nobody expects")
     with pytest.raises(RuntimeError, match="nobody expects"):
         cli("audit", "run.h5")
 
 
-def test_without_a_compiler_one_line_says_so():
-    told = subprocess.run(
+def test_disabled_compiler_is_reported_in_one_line():
+    process = subprocess.run(
         [*COMMAND, "simulate"],
         env=os.environ | {"NUMBA_DISABLE_JIT": "1"},
         capture_output=True,
         text=True,
     )
-    assert (told.returncode, told.stderr) == (
+    assert (process.returncode, process.stderr) == (
         4,
         "precursors simulate: the solver must be compiled: unset NUMBA_DISABLE_JIT\n",
     )
 
 
-def test_an_interrupt_stops_compiled_code():
+def test_interrupt_stops_compiled_code():
     # A shell without job control has SIGINT ignored in what it starts in the
     # background; tests inherit that.
     program = (
@@ -599,11 +590,9 @@ def test_an_interrupt_stops_compiled_code():
     )
     assert command.stdout.readline() == "running\n"
     command.send_signal(signal.SIGINT)
-    out, err = command.communicate(
-        timeout=300
-    )  # far more than it takes, unless it hangs
+    out, err = command.communicate(timeout=300)  # it takes far less unless it hangs
     assert command.returncode == 130
-    assert set(out.splitlines()) <= {"running"}  # some calls of the kernel more
+    assert set(out.splitlines()) <= {"running"}  # the kernel may be called again
     assert err == "precursors simulate: interrupted\n"
 
 

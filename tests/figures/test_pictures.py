@@ -6,7 +6,7 @@ from places import GOLDEN
 
 from precursors.figures import precursor_lengths, scene, style
 
-# As a journal wants it: one column, large letters, a font whose symbols differ.
+# A look for a journal: one column, large letters, a font with other symbols.
 NARROW = style.Look(85.0, 9.0, "DejaVu Serif")
 
 
@@ -15,7 +15,7 @@ def slips(name: str = "fig10", **columns: object) -> pd.DataFrame:
 
 
 def trace(events: pd.DataFrame, duration: float = 10.0) -> pd.DataFrame:
-    """The load at both ends of each event that ends, and of the run."""
+    """Return the load at both ends of the run and of each complete event."""
     over = events.dropna(subset="end_s")
     times = [0.0, *over[["onset_s", "end_s"]].to_numpy().ravel(), duration]
     loads = [0.0, *over[["load_before_N", "load_after_N"]].to_numpy().ravel(), 150.0]
@@ -27,8 +27,8 @@ def draw_scene(events: pd.DataFrame, duration: float = 10.0, **how: object):
 
 
 def crowded_scene():
-    """Many events, one of which the end of the run cuts off, and a measurement below
-    zero."""
+    """Draw many events, one of them cut off by the end of the run, and a negative
+    measured load."""
     first = slips("fig12")
     times = ["onset_s", "end_s"]
     again = first.assign(**(first[times] + 10.0))
@@ -53,7 +53,7 @@ def crowded_scene():
 
 
 def endless_scene():
-    """A chain of one block that slides from the start and never stops."""
+    """Draw one block that slides from the start and never stops."""
     event = {
         "onset_s": 0.0,
         "end_s": np.nan,
@@ -67,14 +67,14 @@ def endless_scene():
 
 
 def partial_scene():
-    """No slip is global, though one reaches the leading edge."""
+    """Draw a scene in which a slip reaches the leading edge but none is global."""
     events = slips(is_global=False).iloc[:16]
     return draw_scene(events, 3.0, title="partial")
 
 
 def other_lengths():
-    """Scenes of one sign, of another slider, without a global slip, without theta and
-    without a slip."""
+    """Draw scenes of equal sign, of another slider, without a global slip, without theta
+    and without a slip."""
     same_sign = slips("fig12", theta=0.2, normal_load_N=800.0)
     few = slips(n_blocks=12)[lambda table: ~table["is_global"]]
     tables = [

@@ -1,4 +1,4 @@
-"""The picture of the push says what the run does."""
+"""The figure of the push agrees with the run."""
 
 import numpy as np
 import pytest
@@ -7,9 +7,9 @@ from precursors import Chain, Record, plot, simulate
 from precursors.figures import push
 
 
-def test_the_picture_says_of_each_slip_why_it_stops():
-    """18 N a block: 79.0 N are used up in block 5, 164.7 N in block 10, 194.3 N never.
-    Block 4 stays, with a step of 27.8 N, when event 14 stops."""
+def test_each_panel_states_why_its_slip_stops():
+    """With 18 N per block, 79.0 N are used up in block 5, 164.7 N in block 10, and 194.3 N
+    never. Block 4 bears 27.8 N and rests when event 14 stops."""
     run = simulate(Chain.from_slider(), until="global slip")
     figure = plot(run, "push", events=[5, 12, 14, 16])
     assert figure.get_suptitle() == push.FINDING
@@ -24,8 +24,8 @@ def test_the_picture_says_of_each_slip_why_it_stops():
     assert last == pytest.approx([1.0, 14.3], abs=0.05)
 
 
-def test_the_title_is_left_out_where_a_farthest_slip_stops_elsewhere():
-    """At -5/6 the longest slip goes on beyond, and short slips alone bear nothing out."""
+def test_title_is_omitted_if_a_farthest_slip_contradicts_it():
+    """At theta = -5/6 the longest slip passes the point at which its push is used up."""
     run = simulate(Chain.from_slider(theta=-5 / 6), until="global slip")
     figure = plot(run, "push")
     assert figure.get_suptitle() == ""
@@ -33,7 +33,7 @@ def test_the_title_is_left_out_where_a_farthest_slip_stops_elsewhere():
     assert plot(run, "push", events=[5]).get_suptitle() == ""
 
 
-def test_a_slip_adds_to_the_push_and_releases_some_of_it():
+def test_slip_adds_to_the_push_and_releases_some_of_it():
     """The first global slip adds 19 N in all springs together, and releases 64 N."""
     run = simulate(Chain.from_slider(), until="global slip")
     stairs = [patch.get_data() for patch in plot(run, "push").axes[-1].patches]
@@ -43,7 +43,7 @@ def test_a_slip_adds_to_the_push_and_releases_some_of_it():
     np.testing.assert_allclose(after - before, added - released, atol=1e-12)
 
 
-def test_any_event_is_shown_that_is_over():
+def test_any_event_that_is_over_can_be_shown():
     run = simulate(Chain.from_slider(), until="global slip")
     (axes,) = plot(run, "push", events=[2]).axes
     assert axes.get_title().startswith("Precursor: stops after block 2,")

@@ -1,5 +1,4 @@
-"""Files of figures are the same bytes each time; looks and orders that must agree
-do."""
+"""Files of figures are reproducible, and colours and markers are distinct."""
 
 from io import BytesIO
 
@@ -17,7 +16,7 @@ from precursors.figures import precursor_lengths, scene, style
 
 
 def small_figure():
-    """A line, plain text and a pale band."""
+    """Draw a line, labels and a pale band."""
     with style.page(85.0, 40.0) as figure:
         axes = figure.add_subplot()
         axes.plot([0.0, 1.0], [0.0, 1.0])
@@ -25,9 +24,7 @@ def small_figure():
     return figure
 
 
-def test_a_file_has_no_date_and_the_same_bytes_whichever_is_first_and_whatever_the_user_has_set(
-    tmp_path, caplog
-):
+def test_figure_files_are_reproducible_under_user_settings(tmp_path, caplog):
     figure = small_figure()
     for ending in ("png", "svg", "pdf", "eps"):
         style.save(figure, tmp_path / f"first.{ending}")
@@ -46,7 +43,7 @@ def test_a_file_has_no_date_and_the_same_bytes_whichever_is_first_and_whatever_t
     assert image.imread(tmp_path / "first.png").shape[1] == int(300 * 85 / 25.4)
 
 
-def test_a_user_who_saves_a_figure_gets_its_size_and_fonts(tmp_path):
+def test_savefig_ignores_user_settings_of_size_and_fonts(tmp_path):
     figure = plot(simulate(Chain.from_slider(), 1.0))
     figure.savefig(tmp_path / "plain.png")
     theirs = {"savefig.bbox": "tight", "savefig.dpi": 50, "pdf.fonttype": 3}
@@ -58,14 +55,14 @@ def test_a_user_who_saves_a_figure_gets_its_size_and_fonts(tmp_path):
     assert b"/Type3" not in files["theirs.pdf"]
 
 
-def test_a_figure_of_a_run_shows_itself_and_nothing_is_said_of_fonts(caplog):
+def test_figure_displays_in_a_notebook_without_font_warnings(caplog):
     figure = plot(simulate(Chain.from_slider(), 1.0))
     assert figure._repr_png_().startswith(b"\x89PNG")
-    figure.canvas.print_figure(BytesIO())  # as Jupyter's own back end does
+    figure.canvas.print_figure(BytesIO())  # as the back end of Jupyter does
     assert caplog.messages == []
 
 
-def test_an_svg_has_its_words_as_text_and_a_title(tmp_path):
+def test_svg_has_text_and_a_title(tmp_path):
     figure = one_length()
     style.save(figure, tmp_path / "figure.svg", title="Fig. 13")
     svg = (tmp_path / "figure.svg").read_text("utf-8")
@@ -81,11 +78,11 @@ def test_an_svg_has_its_words_as_text_and_a_title(tmp_path):
         (0.833, "0.833"),
     ],
 )
-def test_theta_is_a_fraction_only_if_it_is_one_of_small_numbers(theta, text):
+def test_theta_is_a_fraction_only_with_a_small_denominator(theta, text):
     assert style.theta_text(theta) == rf"$\theta = {text}$"
 
 
-def test_the_law_holds_for_measured_loads_and_the_axis_holds_the_data():
+def test_law_uses_measured_loads_and_axis_covers_the_data():
     run = simulate(Chain.from_slider(weights=[20.0, 40.0, 60.0]), until="global slip")
     axes = plot(run, "lengths", data=[[-5.0, 0.2], [300.0, 1.0]]).axes[0]
     drawn = [list(line.get_xdata()) for line in axes.lines]
@@ -99,7 +96,7 @@ def test_the_law_holds_for_measured_loads_and_the_axis_holds_the_data():
         plot(run, data=[1.0, 2.0])
 
 
-def test_the_magnified_view_has_the_measured_loads_in_it():
+def test_magnified_view_includes_measured_loads():
     run = simulate(Chain.from_slider(), 4.0)
     inside, beyond = [[2.0, 140.0], [2.7, 180.0]], [[3.9, 900.0]]
     figure = plot(run, data=inside + beyond)
@@ -110,13 +107,13 @@ def test_the_magnified_view_has_the_measured_loads_in_it():
     assert view.get_ylim()[1] < 250.0
 
 
-def test_measured_lengths_are_shares_of_the_whole():
+def test_measured_lengths_above_1_are_refused():
     point = style.Measured("measured", np.array([[50.0, 30.0]]))
     with pytest.raises(ValueError, match="between 0 and 1"):
         precursor_lengths.draw([slips()], [point])
 
 
-def test_every_method_with_a_line_has_a_marker_of_its_own():
+def test_every_method_with_a_line_has_its_own_marker():
     markers = [row["marker"] for row in ROWS.values() if row["color"] != style.GREY]
     assert all(markers)
     assert len(set(markers)) == len(markers)
@@ -142,6 +139,6 @@ MEANINGS = (
 
 @pytest.mark.parametrize("sight", SIGHTS)
 @pytest.mark.parametrize("names", MEANINGS)
-def test_every_reader_tells_two_meanings_apart(sight, names):
+def test_colours_are_distinct_for_every_type_of_sight(sight, names):
     colors = {name: getattr(style, name, name) for name in names}
     assert alike(colors, sight) == []

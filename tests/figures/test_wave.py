@@ -1,4 +1,4 @@
-"""The movie shows what the run does."""
+"""The movie agrees with the run."""
 
 from xml.etree import ElementTree
 
@@ -11,13 +11,13 @@ from precursors import Chain, plot, simulate
 from precursors.figures import style, wave
 
 SVG = f"{{{wave.XMLNS}}}"
-# Coordinates are written with one digit.
+# Coordinates are written with one decimal.
 PIXELS = 0.06
 
 
 class TwoBlocks:
-    """From 1 to 3 s: block 1 slides 1 m forward at once and stops at 2 s; block 2
-    slides back between."""
+    """An event from 1 to 3 s: block 1 slides 1 m forward until 2 s, and block 2 slides
+    backward in between."""
 
     transitions = np.array(
         [(0.5, 2, 1), (0.9, 2, 0), (1.0, 1, 1), (1.5, 2, -1), (2.0, 1, 0), (2.5, 2, 0)],
@@ -36,20 +36,20 @@ def drawn(**columns) -> ElementTree.Element:
     return ElementTree.fromstring(wave.draw(TwoBlocks(), slips).svg)
 
 
-def test_the_kept_picture_is_that_of_the_run():
-    kept = GOLDEN / "wave.svg"
+def test_committed_wave_is_the_one_of_the_run():
+    golden = GOLDEN / "wave.svg"
     drawn = RESULTS / "figures/wave.svg"
-    assert kept.read_text("utf-8") == drawn.read_text("utf-8")
-    assert kept.stat().st_size < 400_000
+    assert golden.read_text("utf-8") == drawn.read_text("utf-8")
+    assert golden.stat().st_size < 400_000
 
 
-def test_bars_stand_where_blocks_slide_and_tell_the_direction():
+def test_bars_mark_when_and_which_way_blocks_slide():
     bars = drawn().findall(f"{SVG}rect[@class='lane']")
     width = wave.RIGHT - wave.LEFT
-    found = [
+    spans = [
         (bar.get("fill"), float(bar.get("x")), float(bar.get("width"))) for bar in bars
     ]
-    (ahead, x1, width1), (back, x2, width2) = found
+    (ahead, x1, width1), (back, x2, width2) = spans
     assert (ahead, back) == (style.GLOBAL, style.BACKWARD)
     assert [x1, x2] == pytest.approx([wave.LEFT, wave.LEFT + 0.25 * width], abs=PIXELS)
     assert [width1, width2] == pytest.approx([0.5 * width] * 2, abs=PIXELS)
@@ -67,11 +67,11 @@ def test_blocks_move_as_in_the_run_and_rest_at_the_end():
     assert set(second.get("values").split(";")) == {"0.0"}
 
 
-def test_a_run_without_a_slip_says_so():
+def test_run_without_a_slip_is_labelled():
     assert "no slip event" in "".join(drawn(end_s=np.nan).itertext())
 
 
-def test_any_run_is_a_movie_of_two_precursors_and_the_global_slip(tmp_path):
+def test_movie_shows_two_precursors_and_the_global_slip(tmp_path):
     run = simulate(Chain.from_slider(), until="global slip")
     movie = plot(run, "wave")
     words = "".join(ElementTree.fromstring(movie.svg).itertext())

@@ -1,4 +1,4 @@
-"""A chain holds the paper's equations 7 to 10, and refuses what they cannot mean."""
+"""A chain fulfils Eqs. 7-10 of the paper and refuses values out of range."""
 
 import copy
 import math
@@ -64,7 +64,7 @@ def test_a_chain_cannot_be_changed():
 
 
 class Quantity(np.ndarray):
-    """An array with a unit, which NumPy drops."""
+    """An array with a unit, which NumPy discards."""
 
     units = "kN"
 
@@ -176,14 +176,14 @@ def test_a_bad_value_is_named_with_its_unit_and_range(argument, value, words):
         (400.0, 1.0, "theta must"),
     ],
 )
-def test_load_cells_that_the_line_cannot_pass_through_are_refused(a, b, words):
+def test_load_cells_that_imply_an_impossible_theta_are_refused(a, b, words):
     with pytest.raises(ValueError, match=words):
         theta_from_load_cells(a, b, spacing=0.06, length=0.1)
 
 
 @pytest.mark.parametrize("ratio", [1e-3, 1.0, 1e3])
 @pytest.mark.parametrize("n_blocks", [1, 2, 40])
-def test_no_frequency_of_the_chain_is_above_the_bound_which_is_close(n_blocks, ratio):
+def test_frequency_bound_holds_and_is_close(n_blocks, ratio):
     chain = Chain(np.ones(n_blocks), 2e-3, 1e6, ratio * 1e6, 1e-4, 0.7, 0.45)
     bonds = np.eye(n_blocks) - np.eye(n_blocks, k=-1)
     stiffness = bonds.T @ np.diag(chain.springs) @ bonds
@@ -208,7 +208,7 @@ def test_no_frequency_of_the_chain_is_above_the_bound_which_is_close(n_blocks, r
         ("mu_k", 0.5, 0.501),
     ],
 )
-def test_every_number_may_be_at_its_limit_and_not_beyond(name, at_the_limit, beyond):
+def test_every_number_may_be_at_its_limit_but_not_beyond(name, at_the_limit, beyond):
     numbers = dict.fromkeys(("mass", "stiffness", "drive_stiffness"), 1.0)
     numbers |= {"weights": [1.0, 2.0], "drive_velocity": 1.0, "mu_s": 0.5, "mu_k": 0.25}
     chain = Chain(**numbers | {name: at_the_limit})
@@ -221,16 +221,14 @@ def test_every_number_may_be_at_its_limit_and_not_beyond(name, at_the_limit, bey
     ("name", "wrong", "right"),
     [("n_blocks", 5, 4), ("theta", 0.5, math.nan), ("normal_load", 11.0, 10.0)],
 )
-def test_what_weights_replace_is_refused_beside_them_unless_it_says_the_same(
-    name, wrong, right
-):
+def test_arguments_that_contradict_weights_are_refused(name, wrong, right):
     weights = [1.0, 2.0, 3.0, 4.0]
     assert Chain.from_slider(weights=weights, **{name: right}).n_blocks == 4
     with pytest.raises(ValueError, match=f"^{name} must not be given beside weights"):
         Chain.from_slider(weights=weights, **{name: wrong})
 
 
-def test_a_chain_knows_theta_until_its_weights_may_be_others():
+def test_chain_keeps_theta_only_while_weights_are_unchanged():
     chain = Chain.from_slider(theta="5/6")
     assert chain.theta == pickle.loads(pickle.dumps(chain)).theta == 5 / 6
     assert math.isnan(replace(chain, weights=chain.weights[::-1]).theta)
@@ -247,7 +245,7 @@ def test_a_profile_is_integrated_over_each_block():
             Chain.from_profile(wrong)
 
 
-# Areas below the lines between points, by hand [MPa mm].
+# Areas below the lines between points, computed by hand [MPa mm].
 PRESSURES = {0: 1, 5: 3, 10: 2, 20: 2, 35: 5, 50: 4, 65: 3, 80: 3, 90: 2, 100: 0}
 AREAS = [22.5, 20.0, 30.0, 140 / 3, 130 / 3, 110 / 3, 185 / 6, 30.0, 25.0, 10.0]
 
@@ -260,7 +258,7 @@ AREAS = [22.5, 20.0, 30.0, 140 / 3, 130 / 3, 110 / 3, 185 / 6, 30.0, 25.0, 10.0]
         ({25: 1, 75: 3}, [25.0, 37.5, 62.5, 75.0]),
     ],
 )
-def test_a_profile_is_straight_between_its_positions(points, areas):
+def test_profile_is_linear_between_its_positions(points, areas):
     x, p = np.array([*points.items()], float).T
     chain = Chain.from_profile(p, len(areas), positions=x / 1000)
     expected = 400 * np.array(areas) / sum(areas)
@@ -271,6 +269,6 @@ def test_a_profile_is_straight_between_its_positions(points, areas):
     ("positions", "about"),
     [([0.0, 0.0], "rise"), ([0.1], "one for each"), ([0.0, 0.2], "from 0 to 0.1 m")],
 )
-def test_positions_of_a_profile_are_on_the_slider(positions, about):
+def test_positions_of_a_profile_must_be_on_the_slider(positions, about):
     with pytest.raises(ValueError, match=about):
         Chain.from_profile([1.0, 2.0], positions=positions)

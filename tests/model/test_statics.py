@@ -1,4 +1,4 @@
-"""A chain at rest carries at most mu_s F_Z, whatever its weights (Eqs. 11-14)."""
+"""A chain at rest carries at most mu_s F_Z for any weights (Eqs. 11-14)."""
 
 import numpy as np
 import pytest
@@ -14,15 +14,14 @@ from precursors.model.statics import (
     maximal_strain_positions,
 )
 
-# Sums of up to 300 terms, each rounded to 1e-16 of the whole.
+# Error of sums of up to 300 terms, each rounded to 1e-16 of the sum.
 ROUNDING = 1e-12
-# The linear program is asked for 1e-10 of F_Z.
+# The tolerance of the linear program is 1e-10 of F_Z.
 LP = 1e-9
 
 
 def random_chain(n: int, rng: np.random.Generator) -> Chain:
-    """A chain of random weights and mu_s, and springs random over twelve decades of
-    K/k."""
+    """Make a chain with random weights, mu_s and springs; K/k spans twelve decades."""
     stiffness, drive_stiffness = 1e6 * 10 ** rng.uniform(-3, 3, size=2)
     return Chain(
         weights=rng.exponential(40.0, n),
@@ -44,7 +43,7 @@ every_chain = pytest.mark.parametrize(
 
 
 @every_chain
-def test_in_the_state_of_maximal_strain_every_block_is_at_its_limit(chain):
+def test_every_block_is_at_its_limit_at_maximal_strain(chain):
     forces = balance_matrix(chain) @ maximal_compressions(chain)
     np.testing.assert_allclose(
         forces, chain.strength, rtol=0, atol=ROUNDING * load_bound(chain)
@@ -54,7 +53,7 @@ def test_in_the_state_of_maximal_strain_every_block_is_at_its_limit(chain):
 
 
 @every_chain
-def test_the_largest_load_at_rest_is_mu_s_F_Z_and_has_the_state_of_eq_12(chain):
+def test_largest_load_at_rest_is_mu_s_F_Z_in_the_state_of_eq_12(chain):
     load, compressions = largest_load_at_rest(chain)
     assert load == pytest.approx(chain.mu_s * chain.weights.sum(), rel=LP)
     np.testing.assert_allclose(compressions, maximal_compressions(chain), rtol=LP)

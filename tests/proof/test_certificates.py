@@ -1,5 +1,5 @@
-"""Certificates come back from their files, are what is proved, and are refused if they
-are not."""
+"""Certificates round-trip through their files, and are refused if they differ from
+their proof."""
 
 import dataclasses
 import gzip
@@ -28,9 +28,7 @@ def small() -> Certificate:
     return certify(SLIDER(n_blocks=3, theta="1/2"), 4)
 
 
-def test_a_certificate_comes_back_from_its_file_which_is_always_the_same(
-    small, tmp_path
-):
+def test_certificate_file_round_trips_and_is_reproducible(small, tmp_path):
     path = tmp_path / "small.json.gz"
     for certificate in (small, tied_certificate()):
         certificate.save(path)
@@ -40,7 +38,7 @@ def test_a_certificate_comes_back_from_its_file_which_is_always_the_same(
         assert path.read_bytes() == first
 
 
-def test_a_foreign_or_damaged_file_is_refused_in_one_line(small, tmp_path):
+def test_foreign_or_damaged_certificate_is_refused_in_one_line(small, tmp_path):
     path = tmp_path / "damaged.json.gz"
     small.save(path)
     whole = path.read_bytes()
@@ -89,7 +87,7 @@ SPOILED: dict[str, tuple[Callable[[CertifiedTransition], CertifiedTransition], s
 
 
 @pytest.mark.parametrize(("spoil", "words"), SPOILED.values(), ids=SPOILED)
-def test_what_is_not_proved_is_refused(small, spoil, words):
+def test_changed_transition_is_refused(small, spoil, words):
     wrong = [
         *small.transitions[:7],
         spoil(small.transitions[7]),
@@ -102,7 +100,7 @@ def test_what_is_not_proved_is_refused(small, spoil, words):
         verify(dataclasses.replace(small, transitions=tuple(wrong)))
 
 
-def test_an_end_that_is_not_found_is_refused(small):
+def test_changed_end_or_tie_is_refused(small):
     tied = tied_certificate()
     assert tied.tie
     early = tied.tie._replace(time=Enclosure(Fraction(1, 10), Fraction(0)))
@@ -121,7 +119,7 @@ def test_an_end_that_is_not_found_is_refused(small):
             verify(wrong)
 
 
-def test_one_block_has_the_whole_load_whatever_theta_is():
+def test_one_block_carries_the_whole_load_for_any_theta():
     assert SLIDER(n_blocks=1, theta="5/6").weights == (400,)
 
 
@@ -141,14 +139,12 @@ def test_one_block_has_the_whole_load_whatever_theta_is():
         ),
     ],
 )
-def test_a_bad_argument_is_named(slider, argument, message):
+def test_bad_argument_is_named(slider, argument, message):
     with pytest.raises(ValueError, match=message):
         certify(SLIDER(**slider), **argument)
 
 
-def test_without_python_flint_the_missing_extra_is_named(
-    monkeypatch,
-):
+def test_missing_python_flint_names_the_extra(monkeypatch):
     monkeypatch.setitem(sys.modules, "flint", None)
     for name in ("tube", "motion", "event_roots"):
         monkeypatch.delitem(sys.modules, f"precursors.proof.{name}", raising=False)

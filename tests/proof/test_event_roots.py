@@ -1,5 +1,7 @@
-"""Event functions enclose the exact ones; their first root is found, of polynomials
-with known roots too."""
+"""Event functions enclose the exact ones, and their first root is enclosed.
+
+Roots are also checked on polynomials whose roots are known.
+"""
 
 import re
 from dataclasses import replace
@@ -31,9 +33,9 @@ from precursors.proof.motion import (
 from precursors.proof.tube import Proof
 
 BITS = 64
-# How closely a root is isolated: Newton's method has stopped to halve the enclosure.
+# Width of an enclosure at which Newton's method stops.
 ISOLATED = 1e-15
-# NumPy's roots of random polynomials of degree 5 are good to so much.
+# Error of the roots by NumPy of random polynomials of degree 5.
 NUMPY = 1e-12
 
 
@@ -44,7 +46,7 @@ def function(
     width: float = 0.0,
     fresh: bool = False,
 ):
-    """An event function from its coefficients, known to within some width."""
+    """Make an event function from its coefficients, known to within `width`."""
     u = arb_poly(value)
     slope = u.derivative()
     around = arb(0, width)
@@ -54,15 +56,15 @@ def function(
 
 
 def through(*roots: float, **how):
-    """The polynomial with these roots, positive before the first."""
+    """Make the polynomial with these roots, positive before the first."""
     coefficients = np.polynomial.polynomial.polyfromroots(roots)
     return function(((-1.0) ** len(roots) * coefficients).tolist(), **how)
 
 
 def find(*functions: EventFunction, back: float = 0.0):
     with ctx.workprec(BITS):
-        found = first_crossing(list(functions), arb(back))
-        return found and (found[0].block, found[1])
+        crossing = first_crossing(list(functions), arb(back))
+        return crossing and (crossing[0].block, crossing[1])
 
 
 ROOTS = {
@@ -82,14 +84,16 @@ ROOTS = {
 
 
 @pytest.mark.parametrize(("of", "back", "root"), ROOTS.values(), ids=ROOTS)
-def test_the_first_root_is_found_and_no_other(of, back, root):
-    found = find(of, back=back)
-    assert (found is None) == (root is None)
-    if found:
-        assert abs(float(found[1].mid()) - root) + float(found[1].rad()) <= ISOLATED
+def test_first_crossing_encloses_the_first_root(of, back, root):
+    crossing = find(of, back=back)
+    assert (crossing is None) == (root is None)
+    if crossing:
+        assert (
+            abs(float(crossing[1].mid()) - root) + float(crossing[1].rad()) <= ISOLATED
+        )
 
 
-def test_random_polynomials_have_the_first_root_that_numpy_finds():
+def test_first_root_of_random_polynomials_agrees_with_numpy():
     generator = np.random.default_rng(7)
     n_roots = 0
     for _ in range(200):
@@ -99,15 +103,15 @@ def test_random_polynomials_have_the_first_root_that_numpy_finds():
         real = roots.real[
             (abs(roots.imag) < 1e-12) & (roots.real > 0) & (roots.real < WINDOW)
         ]
-        found = find(function(coefficients.tolist()))
-        assert (found is None) == (not real.size)
-        if found:
+        crossing = find(function(coefficients.tolist()))
+        assert (crossing is None) == (not real.size)
+        if crossing:
             n_roots += 1
-            assert abs(float(found[1].mid()) - real.min()) < NUMPY
+            assert abs(float(crossing[1].mid()) - real.min()) < NUMPY
     assert 50 < n_roots < 150
 
 
-def test_of_several_functions_the_first_to_cross_is_found_in_any_order():
+def test_first_of_several_functions_wins_in_any_order():
     three = [through(0.7, block=1), through(0.3, 0.5, block=2), through(0.9, block=3)]
     for functions in (three, three[::-1], three[1:] + three[:1]):
         block, root = find(*functions)
@@ -115,7 +119,7 @@ def test_of_several_functions_the_first_to_cross_is_found_in_any_order():
         assert abs(float(root.mid()) - 0.3) <= ISOLATED
 
 
-def test_a_root_that_is_known_to_a_width_is_enclosed_and_the_enclosure_is_about_as_wide():
+def test_enclosure_is_about_as_wide_as_the_uncertain_root():
     _, root = find(through(0.3, width=1e-6))
     assert 0.9e-6 < float(root.rad()) < 1.1e-6
     assert root.contains(0.3)
@@ -145,7 +149,7 @@ UNDECIDED = {
 @pytest.mark.parametrize(
     ("functions", "back", "question", "time"), UNDECIDED.values(), ids=UNDECIDED
 )
-def test_what_cannot_be_decided_is_asked(functions, back, question, time):
+def test_undecidable_crossing_raises_a_question(functions, back, question, time):
     with pytest.raises(Undecided, match=f"^whether {question}$") as asked:
         find(*functions, back=back)
     assert [str(i) for i in asked.value.blocks] == re.findall(r"\d", question)
@@ -153,7 +157,7 @@ def test_what_cannot_be_decided_is_asked(functions, back, question, time):
 
 
 def equations(of: Constants, mode: list[int]) -> np.ndarray:
-    """The matrix M of Eqs. 2-4, y' = M y with y = (T_1..T_N, u_1..u_N, 1)."""
+    """Return the matrix M of Eqs. 2-4, y' = M y with y = (T_1..T_N, u_1..u_N, 1)."""
     springs = np.array([float(c) for c in of.coupling[1:-1]])
     friction = np.array([float(x) for x in of.friction[1:-1]])
     modes = np.array(mode[1:-1])
@@ -165,7 +169,7 @@ def vector(state: EnclosedState) -> np.ndarray:
 
 
 def scale(of: Constants) -> np.ndarray:
-    """What y is divided by in the norm of the energy."""
+    """Return the divisors of y in the energy norm."""
     springs = [float(c) for c in of.coupling[1:-1]]
     return np.append(np.sqrt(springs), np.ones(len(springs)))
 
@@ -173,8 +177,7 @@ def scale(of: Constants) -> np.ndarray:
 def exact_rows(
     proof: Proof, function: EventFunction, matrix: np.ndarray
 ) -> list[np.ndarray]:
-    """The event function and its derivatives, as far as it has any, as rows that
-    multiply y."""
+    """Return the event function and its derivatives as rows that multiply y."""
     n = proof.chain.n_blocks
     i = function.block
     way = function.direction
@@ -196,25 +199,23 @@ def functions_of(proof: Proof, distance: float, bits: int) -> list[EventFunction
 
 @pytest.fixture(scope="module")
 def sliding() -> Proof:
-    """Theta = -5/6 in the event in which block 10 first turns round: some blocks slide,
-    some are stuck."""
+    """Return a proof for theta = -5/6 in the event in which block 10 first turns round:
+    some blocks slide, some are stuck."""
     proof = proof_of(ExactChain.from_slider(theta="-5/6"), 256)
     while len(proof.transitions) < 53:
         go_on(proof)
     return proof
 
 
-# How close the exact motion comes to the bound of what 12 bits leave out: value, slope
-# and bend of a speed, the value of a margin (its rate is integrated, and the bound with
-# it) and its slope.
+# Smallest share of the bound that the error with 12 bits reaches: value, slope and bend
+# of a speed, then value and slope of a margin. The value of a margin is the integral of
+# a rate, and so is its bound.
 CLOSEST = {(0, 0): 0.7, (1, 0): 0.7, (2, 0): 0.7, (0, 1): 0.01, (1, 1): 0.15}
 
 
-def test_event_functions_enclose_the_exact_ones_up_to_the_end_and_are_no_wider_than_they_must(
-    sliding,
-):
-    """Beside the matrix exponential, with so few bits that the remainder of the series
-    is seen."""
+def test_event_functions_enclose_the_exact_ones_closely(sliding):
+    """The reference is the matrix exponential. With 12 bits, the remainder of the
+    series is visible."""
     functions = functions_of(sliding, 0.0, 12)
     matrix = equations(sliding.bounds, sliding.state.mode)
     closest = dict.fromkeys(CLOSEST, 0.0)
@@ -222,20 +223,17 @@ def test_event_functions_enclose_the_exact_ones_up_to_the_end_and_are_no_wider_t
         flow = expm(matrix * t) @ vector(sliding.state)
         for of in functions:
             for k, row in enumerate(exact_rows(sliding, of, matrix)):
-                found = (of.value, of.slope, of.bend)[k](arb(t))
-                wrong = abs(float(found.mid()) - row @ flow)
-                radius = float(found.rad())
+                ball = (of.value, of.slope, of.bend)[k](arb(t))
+                wrong = abs(float(ball.mid()) - row @ flow)
+                radius = float(ball.rad())
                 assert wrong <= radius
                 key = k, abs(of.direction)
                 closest[key] = max(closest[key], wrong / radius)
     assert all(closest[key] > least for key, least in CLOSEST.items()), closest
 
 
-def test_event_functions_hold_for_every_run_within_twice_the_distance_and_for_no_farther_one(
-    sliding,
-):
-    """At the start, where a function and its derivatives are linear in T_i / sqrt c_i
-    and u_i."""
+def test_event_functions_cover_runs_within_twice_the_distance(sliding):
+    """At the start, functions and derivatives are linear in T_i / sqrt c_i and u_i."""
     n = sliding.chain.n_blocks
     distance = 1e-6
     mode = sliding.state.mode
@@ -257,9 +255,9 @@ def test_event_functions_hold_for_every_run_within_twice_the_distance_and_for_no
     assert {of.block for of in functions if of.fresh} == sliding.fresh == {10}
 
 
-def test_a_state_that_is_moved_is_within_its_distance_of_the_exact_one(sliding):
-    """Beside the matrix exponential, with so few bits that the remainder of the series
-    is seen."""
+def test_advanced_state_is_within_its_distance_of_the_exact_one(sliding):
+    """The reference is the matrix exponential. With 12 bits, the remainder of the
+    series is visible."""
     bounds = sliding.bounds
     step = 0.25
     with ctx.workprec(BITS):
@@ -276,8 +274,8 @@ SLOW: dict[str, Any] = {
     "drive_stiffness": "1e3",
     "drive_velocity": "1e-20",
 }
-# Slider, modes, forces and rates of the state, distance [N], and by how much its bound
-# is too large.
+# Slider; modes, forces and rates of the state; distance [N]; largest ratio of the bound
+# to the change.
 CHANGES = {
     "the drive": ({"n_blocks": 1, "mu_k": 0}, [1], [0], [0], 0, 4.8),
     "friction": (SLOW, [1, -1], [0, 0], [0, 0], 0, 3.3),
@@ -292,11 +290,11 @@ CHANGES = {
     CHANGES.values(),
     ids=CHANGES,
 )
-def test_no_net_force_changes_by_more_than_its_bound(
+def test_change_of_net_force_stays_within_its_bound(
     slider, mode, force, rate, distance, slack
 ):
-    """Beside the matrix exponential; a run may have the velocity, or be as far as that
-    from the state."""
+    """The reference is the matrix exponential. A velocity may be in the state or within
+    its distance."""
     chain = ExactChain.from_slider(**slider)
     gap = 0.5
     state = EnclosedState(

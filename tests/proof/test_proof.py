@@ -1,5 +1,5 @@
-"""Proofs are right: beside closed forms, the double solver, and runs that start a
-little apart."""
+"""Proofs agree with closed forms, with the solver in double precision, and with runs
+that start slightly apart."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -33,13 +33,12 @@ from precursors.proof import (
 from precursors.proof.motion import EnclosedState, tail, time_unit
 from precursors.proof.tube import Proof
 
-# An enclosure is at least so good [s], [N].
+# Largest radii of enclosures [s, N].
 TIME_RADIUS = Fraction(1, 10**40)
 LOAD_RADIUS = Fraction(1, 10**35)
 # Errors of the solver up to the first global slip [s].
 SOLVER = 1e-12
-# So few that the enclosures are wide, and a start so close to the edge of what they
-# hold at time 0.
+# Few bits, so that enclosures are wide, and a start near the edge of the one at time 0.
 COARSE_BITS = 128
 CLOSE_TO_REACH = Fraction(99, 100)
 # Rounding of clocks of 300 bits [s].
@@ -59,9 +58,7 @@ def digits(x: Fraction) -> mpmath.mpf:
 
 
 @pytest.mark.parametrize("slider", [{"theta": "-5/6"}, {"n_blocks": 1}])
-def test_the_first_slip_is_that_of_one_oscillator_under_a_growing_load(
-    slider,
-):
+def test_first_slip_is_that_of_a_loaded_oscillator(slider):
     """m x'' = drop + K V t - stiffness x from rest at x = 0, as in `chains.lone_slip`."""
     chain = ExactChain.from_slider(**slider)
     rate = chain.drive_stiffness * chain.drive_velocity
@@ -87,19 +84,17 @@ def test_the_first_slip_is_that_of_one_oscillator_under_a_growing_load(
 
 
 @pytest.mark.parametrize("theta", ["-5/6", "5/6", "-1"])
-def test_a_scene_is_proved_up_to_its_global_slip_as_the_solver_finds_it(
-    theta,
-):
-    """Or, at theta = -1, a chain with a block that bears no load."""
+def test_proof_agrees_with_the_solver_up_to_the_global_slip(theta):
+    """At theta = -1, the last block bears no load."""
     chain = ExactChain.from_slider(theta=theta)
     truth = Truth.proved(certify(chain, 10, until="global slip"))
-    found = compare(simulate(chain.to_chain(), until="global slip"), truth)
-    assert has_all_transitions(found)
-    assert found.time_error < SOLVER
+    comparison = compare(simulate(chain.to_chain(), until="global slip"), truth)
+    assert has_all_transitions(comparison)
+    assert comparison.time_error < SOLVER
 
 
-def test_a_proof_ends_with_the_global_slip_of_blocks_that_bear_load():
-    """A block with a millionth of the mean load slides on."""
+def test_proof_ends_when_all_blocks_with_load_have_slipped():
+    """A block with a millionth of the mean load still slides then."""
     weights = np.full(5, 80.0)
     weights[4] = 1e-6 * 80.0
     chain = SLIDER(weights=weights)
@@ -109,7 +104,7 @@ def test_a_proof_ends_with_the_global_slip_of_blocks_that_bear_load():
     assert has_all_transitions(compare(run, truth))
 
 
-def test_the_doubles_of_a_chain_are_taken_for_what_they_are():
+def test_doubles_of_a_chain_are_taken_exactly():
     certificate = certify(ExactChain.from_slider(n_blocks=3).to_chain(), 2)
     assert certificate.chain.mu_s == Fraction(0.7) != Fraction(7, 10)
     assert certificate.transitions[0].tangential_load.contains(
@@ -117,7 +112,7 @@ def test_the_doubles_of_a_chain_are_taken_for_what_they_are():
     )
 
 
-def test_a_mirror_symmetric_start_is_a_tie():
+def test_mirror_symmetric_start_is_a_tie():
     certificate = tied_certificate()
     assert [(t.time, t.block, t.mode) for t in certificate.transitions] == [
         (exactly(Fraction(0)), i, mode) for i, mode in ((3, 1), (4, -1), (5, 1))
@@ -130,7 +125,7 @@ def test_a_mirror_symmetric_start_is_a_tie():
     verify(certificate)
 
 
-def test_a_block_without_kinetic_friction_that_is_back_at_its_limit_is_a_tie():
+def test_stop_exactly_at_the_limit_is_a_tie():
     # Without loss its net force is mu_s w again, where it stops.
     chain = ExactChain.from_slider(2, theta="0.5", mu_k=0)
     tie = certify(chain, 1).tie
@@ -139,7 +134,7 @@ def test_a_block_without_kinetic_friction_that_is_back_at_its_limit_is_a_tie():
     assert tie.closeness < Fraction(1, 10**45)
 
 
-def test_a_tie_all_but_true_is_decided_with_more_bits():
+def test_near_tie_is_decided_with_more_bits():
     # Block 2 carries less than block 6, by one part in 1e100, and lets go first.
     chain = ExactChain.from_slider(n_blocks=7, theta="1e-100")
     certificate = certify(chain, "1e-5", start_positions=SYMMETRIC_START)
@@ -149,13 +144,10 @@ def test_a_tie_all_but_true_is_decided_with_more_bits():
 
 
 @pytest.mark.parametrize("displaced", [1, 2])
-def test_a_run_that_starts_within_the_distance_stays_in_the_enclosures(
-    displaced,
-):
+def test_run_started_within_the_distance_stays_enclosed(displaced):
     chain = ExactChain.from_slider()
     reach = fraction(proof_of(chain, COARSE_BITS).state.distance)
-    # One block is displaced, so that the spring forces are at this distance [N] from
-    # zero.
+    # The displacement of one block puts the spring forces almost at this distance [N].
     behind, ahead = chain.springs[displaced - 1 : displaced + 1]
     stiffness = Fraction(
         math.sqrt((behind + ahead) * chain.mass / time_unit(chain) ** 2)
@@ -208,8 +200,8 @@ def fraction(x: arb) -> Fraction:
     return Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
 
 
-def test_radii_that_are_absorbed_count_in_the_norm_of_the_energy():
-    """sum T_i^2 / c_i + u_i^2, for two blocks."""
+def test_absorbed_radii_are_measured_in_the_energy_norm():
+    """The norm is sum T_i^2 / c_i + u_i^2, here for two blocks."""
     constants: Any = SimpleNamespace(coupling=[arb(c) for c in (0, 0.25, 4, 0)])
     state = EnclosedState([], [], [0] * 4, arb(1))
     forces = [arb(0), arb(5, 3), arb(6, 4), arb(0)]
@@ -220,11 +212,9 @@ def test_radii_that_are_absorbed_count_in_the_norm_of_the_energy():
 
 
 @pytest.mark.parametrize(("last", "derivative"), [(9, 1), (6, 2)])
-def test_the_bound_of_the_remainder_is_its_first_terms_where_blocks_oscillate(
-    last, derivative
-):
-    """u'' = -omega^2 u: of every other coefficient 0, a_{n+2} = omega^2 a_n / ((n +
-    1)(n + 2)) in size."""
+def test_bound_of_the_remainder_is_close_to_its_first_terms(last, derivative):
+    """With u'' = -omega^2 u, every other coefficient is 0, and |a_{n+2}| = omega^2 |a_n|
+    / ((n + 1)(n + 2))."""
     omega2 = Fraction(4)
     span = Fraction(1, 1000)
     constants: Any = SimpleNamespace(frequency_squared=arb(4))
@@ -245,7 +235,7 @@ def test_the_bound_of_the_remainder_is_its_first_terms_where_blocks_oscillate(
         assert first <= bound < (1 + slack) * first
 
 
-def test_what_is_published_holds_what_is_proved_and_is_hardly_wider():
+def test_certificate_encloses_the_proof_and_is_hardly_wider():
     certificate = certify(
         ExactChain.from_slider(n_blocks=3, theta="1/2"), 20, width="1e-20"
     )
@@ -257,8 +247,7 @@ def test_what_is_published_holds_what_is_proved_and_is_hardly_wider():
             enclosure = getattr(published, name)
             ball = getattr(proved, name)
             radius = fraction(ball.rad())
-            # One per cent is to spare, and less than one is lost by writing three
-            # digits.
+            # Radii are enlarged by 1 %; rounding to three digits adds less than 1 %.
             spare = Fraction(101, 100)
             least = spare * (radius + abs(enclosure.midpoint - fraction(ball.mid())))
             assert least <= enclosure.radius <= spare * least + Fraction(1, 10**47)
@@ -269,7 +258,7 @@ def test_what_is_published_holds_what_is_proved_and_is_hardly_wider():
     assert max(radii) > 1e-36
 
 
-def test_a_transition_at_the_very_end_of_the_run_is_not_decided_by_luck():
+def test_transition_exactly_at_the_end_of_the_run_is_a_tie():
     certificate = certify(ExactChain.from_slider(), "0.35", max_bits=512)
     assert certificate.transitions == ()
     assert certificate.tie
@@ -277,8 +266,8 @@ def test_a_transition_at_the_very_end_of_the_run_is_not_decided_by_luck():
 
 
 def lone_block(excess: str) -> Certificate:
-    """One block without friction that starts at 2 V (1 + excess), until before it is
-    back.
+    """Prove part of a cycle of one block without friction that starts at 2 V (1 +
+    excess).
 
     Its speed is V + (1 + 2 excess) V cos(omega t): at excess = 0 it only touches zero.
     """
@@ -287,7 +276,7 @@ def lone_block(excess: str) -> Certificate:
     return certify(chain, 6 * time_unit(chain), start_velocities=[start], max_bits=512)
 
 
-def test_a_motion_that_only_grazes_its_limit_is_not_proved():
+def test_motion_that_grazes_its_limit_is_a_tie():
     grazing = lone_block("0")
     assert [t.mode for t in grazing.transitions] == [1]
     assert grazing.tie
@@ -295,7 +284,7 @@ def test_a_motion_that_only_grazes_its_limit_is_not_proved():
 
 
 @pytest.mark.parametrize("excess", ["1", "1e-12"])
-def test_the_least_slope_of_a_turn_is_that_of_the_motion(excess):
+def test_least_slope_of_a_turn_is_close_to_the_true_one(excess):
     turned = lone_block(excess)
     chain = turned.chain
     assert [t.mode for t in turned.transitions[:2]] == [1, -1]
@@ -312,7 +301,7 @@ def test_block_1_is_released_at_the_rate_of_the_drive():
     assert 0.999 * 80 < release.slope < 80  # K V [N/s], from rest
 
 
-def test_too_few_bits_are_an_error_and_no_tie():
+def test_too_few_bits_are_an_error_and_not_a_tie():
     with pytest.raises(
         CertificateError, match="max_bits = 128 do not suffice beyond t = "
     ):

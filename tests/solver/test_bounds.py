@@ -1,7 +1,7 @@
-"""No root is passed over: the proof of a window, the safe steps and the search, against
-exact series.
+"""The solver passes over no root: its bounds of a window, safe steps and root search are
+checked on exact series.
 
-A step that is too short costs time: `test_work` counts it.
+Steps that are too short only cost time, which `test_work` counts.
 """
 
 import math
@@ -18,14 +18,16 @@ from precursors.solver.kernel.proof import TAIL
 from precursors.solver.kernel.units import parameters, set_up
 
 WINDOWS = 400
-ROUNDING = 1e-12  # of a window; numpy.roots knows a simple root to some roundings
+ROUNDING = 1e-12  # error of numpy.roots for a simple root, as a share of a window
 
 
 @pytest.fixture(scope="module")
 def windows() -> list[tuple[np.ndarray, float]]:
-    """Series with c_0 > 0 and terms of either sign that fall off like those of Taylor's,
-    each with its first root in [0, 1], or infinity; and parabolas, in which no step may
-    be longer."""
+    """Return series with c_0 > 0, each with its first root in [0, 1] or infinity.
+
+    Terms have random signs and decrease as in a Taylor series. The first three are
+    parabolas, for which the safe step is the longest possible.
+    """
     random = np.random.default_rng(3)
     size = [2.0**k / math.factorial(k) for k in range(12)]
     all_series = random.standard_normal((WINDOWS, 12)) * size
@@ -33,16 +35,16 @@ def windows() -> list[tuple[np.ndarray, float]]:
     all_series[:3] = np.pad(
         [[1.0, -0.5, -2.0], [1, 0, -2], [1, 0.5, -2]], [(0, 0), (0, 9)]
     )
-    found = []
+    series_and_roots = []
     for series in all_series:
         all_roots = np.roots(series[::-1])
         real = all_roots.real[abs(all_roots.imag) < 1e-9]
         within = real[(real >= 0.0) & (real <= 1.0)]
-        found.append((series, float(within.min(initial=np.inf))))
-    return found
+        series_and_roots.append((series, float(within.min(initial=np.inf))))
+    return series_and_roots
 
 
-def test_one_step_passes_no_root(windows):
+def test_safe_step_passes_no_root(windows):
     n = np.arange(12)
     for c, root in windows:
         curvature = (n * (n - 1) * abs(c)).sum()
@@ -50,23 +52,20 @@ def test_one_step_passes_no_root(windows):
 
 
 @pytest.mark.parametrize("shift", [0, 2])
-def test_the_search_ends_at_the_first_root_or_proves_that_there_is_none(
-    windows, shift, monkeypatch
-):
-    """Also where the series begins with roots at the start, which were dealt with
-    already."""
+def test_search_returns_the_first_root_or_none(windows, shift, monkeypatch):
+    """With `shift`, the series also has roots at the start, which are ignored."""
     for function in (roots.safe_step, roots.move_series):
         monkeypatch.setattr(roots, function.__name__, function.py_func)
     progress = SimpleNamespace(root_steps=0)
     for c, root in windows:
-        found = roots.first_root.py_func(
+        first = roots.first_root.py_func(
             len(c) + shift, 1e-15, np.append(np.zeros(shift), c), progress
         )
-        assert found == pytest.approx(root, abs=1e-9) if root <= 1.0 else found > 1.0
+        assert first == pytest.approx(root, abs=1e-9) if root <= 1.0 else first > 1.0
 
 
-def test_a_function_stays_within_the_bounds_of_its_window(monkeypatch):
-    """Terms up to u^5, the value at the end, and a rest that does the worst it may."""
+def test_function_stays_within_the_bounds_of_its_window(monkeypatch):
+    """A function has terms up to u^5, a value at the end, and the worst remainder."""
     lanes = SimpleNamespace(smaller=np.minimum, larger=np.maximum)
     monkeypatch.setattr(proof, "lanes", lanes)
     random = np.random.default_rng(6)
@@ -83,13 +82,12 @@ def test_a_function_stays_within_the_bounds_of_its_window(monkeypatch):
     largest = (middle + reach).max(axis=0)
     assert (np.minimum(low, at_end) <= least + ROUNDING).all()
     assert (largest <= high + ROUNDING).all()
-    # No wider than they are: less is better.
+    # The current width of the bounds: less is better.
     assert np.median((high - low) / (largest - least)) < 1.57
 
 
-def test_the_bound_of_the_rest_is_met_where_no_later_row_is_smaller():
-    """sum_n (n - 6) s^n/n! over n >= 9, as a closed form: (s - 6) e^s less its first
-    terms."""
+def test_bound_of_the_remainder_has_its_closed_form():
+    """sum_n (n - 6) s^n/n! over n >= 9 is (s - 6) e^s less its first terms."""
     terms = [WINDOW**n / math.factorial(n) for n in range(9)]
     rest = WINDOW * (math.exp(WINDOW) - sum(terms[:8])) - 6 * (
         math.exp(WINDOW) - sum(terms)
@@ -97,9 +95,9 @@ def test_the_bound_of_the_rest_is_met_where_no_later_row_is_smaller():
     assert TAIL * WINDOW**9 / math.factorial(9) == pytest.approx(rest, rel=1e-9)
 
 
-def test_the_rest_of_a_series_is_within_its_bound():
-    """Of terms from the ninth on, of all that is watched in the longest window; they
-    come from the equations of motion."""
+def test_remainder_of_a_series_is_within_its_bound():
+    """Terms from the ninth on follow from the equations of motion, for all velocities and
+    forces in the longest window."""
     later = range(9, ORDER + 1)
     factor = np.array([(n - 6) * WINDOW**n / math.factorial(n) for n in later])
     for seed in range(200):

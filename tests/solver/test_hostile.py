@@ -1,4 +1,5 @@
-"""Hostile chains whose runs once looked wrong, and random ones."""
+"""Audits of chains with extreme parameters: some that were once inaccurate, and random
+ones."""
 
 import pytest
 from chains import first_transitions, positions_under
@@ -6,13 +7,13 @@ from random_chains import moves_as_the_model_says
 
 from precursors import Chain
 
-# Their deviations once were beyond 1e-10 of the largest strength, the worst first; in
-# the last two friction is a rounding of the forces, for all blocks but one or for all.
+# Deviations of an earlier solver were above 1e-10 of the largest strength; the worst is
+# first. In the last two, friction is below rounding for all blocks but one, or for all.
 ONCE_SUSPECTED = (12621, 14434, 12209, 12177, 19552, 12626, 15083, 17283, 1668, 3798)
 
 
-def test_a_soft_drive_keeps_its_load_where_block_1_starts_at_its_limit():
-    """K/k = 1e-7: a rounding of k x_1 that is put into K (V t - x_1) is 4e-11 of it."""
+def test_soft_drive_keeps_its_load_with_block_1_at_its_limit():
+    """At K/k = 1e-7, a rounding error of k x_1 is 4e-11 of K (V t - x_1)."""
     chain = Chain.from_slider(n_blocks=5, drive_stiffness=25.0)
     pushes = [chain.strength[0], 0.21, 0.32, -chain.strength[3], 0.54]
     start = positions_under(chain, pushes)
@@ -25,11 +26,11 @@ def test_a_soft_drive_keeps_its_load_where_block_1_starts_at_its_limit():
 
 
 @pytest.mark.parametrize("first", range(0, 160, 20))
-def test_random_chains_move_as_the_model_says(first):
-    """The auditor, which shares no code with the solver, finds nothing wrong."""
+def test_random_chains_pass_the_audit(first):
+    """The audit shares no code with the solver."""
     assert sum(map(moves_as_the_model_says, range(first, first + 20))) >= 15
 
 
 @pytest.mark.parametrize("number", ONCE_SUSPECTED)
-def test_a_run_that_once_looked_wrong_moves_as_the_model_says(number):
+def test_formerly_inaccurate_chains_pass_the_audit(number):
     assert moves_as_the_model_says(number)

@@ -1,4 +1,4 @@
-"""The method in plain Python finds the transitions of the compiled kernel."""
+"""The method in plain Python gives the transitions of the compiled kernel."""
 
 from itertools import product
 
@@ -10,18 +10,16 @@ from random_chains import mild_chain
 from precursors import simulate
 from precursors.solver import plain
 
-# Both are right to about so much up to the first global slip [s], [N].
+# Errors of both methods up to the first global slip [s, N].
 TO_GLOBAL_SLIP = 1e-12
 LOAD_TO_GLOBAL_SLIP = 1e-10
-# Of the run's duration, and of the largest load: roundings of some tens of transitions.
+# Errors after some tens of transitions, relative to the duration and the largest load.
 RANDOM = 1e-9
 RANDOM_LOAD = 1e-8
 
 
 @pytest.mark.parametrize("theta", SCENES.values())
-def test_every_transition_of_a_scene_is_the_same_up_to_the_first_global_slip(
-    theta,
-):
+def test_plain_method_agrees_up_to_the_first_global_slip(theta):
     run = simulate(SLIDER(theta=theta), until="global slip")
     rows, end = by_plain(run.chain, 10.0, until_global=True)
     compiled = run.transitions
@@ -40,10 +38,8 @@ def test_every_transition_of_a_scene_is_the_same_up_to_the_first_global_slip(
 
 
 @pytest.mark.parametrize(("over", "mode"), [(1e-9, 1), (0.0, 0), (-1e-9, 0)])
-def test_a_block_beyond_its_limit_slides_from_time_0_and_one_at_its_limit_sticks(
-    over, mode
-):
-    """Its limit is 28 N; its positions are known to their roundings, 1e-10 N."""
+def test_block_slides_at_the_start_only_beyond_its_limit(over, mode):
+    """The limit is 28 N; rounding of positions changes forces by 1e-10 N."""
     for block, side in product((1, 4, 9), (1, -1)):
         push = np.full(10, 14.0)
         push[block] = side * 28.0 * (1.0 + over)
@@ -54,7 +50,7 @@ def test_a_block_beyond_its_limit_slides_from_time_0_and_one_at_its_limit_sticks
         assert compiled[["block", "mode"]].tolist() == [(block + 1, side)] * mode
 
 
-def test_random_chains_have_the_same_transitions():
+def test_plain_method_agrees_on_random_chains():
     for number in range(15):
         case = mild_chain(np.random.default_rng(number))
         rows, _ = by_plain(case.chain, case.duration, most=case.most, **case.start)

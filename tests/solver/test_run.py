@@ -1,5 +1,4 @@
-"""A run knows the motion at every time, and its file gives back every bit or is
-refused."""
+"""A run gives the motion at any time, and its file restores every bit or is refused."""
 
 import fcntl
 from collections.abc import Iterator
@@ -16,7 +15,7 @@ from precursors import Record, Run, RunFileError, audit, simulate
 from precursors.solver.record import arrays_of
 from precursors.solver.run_file import SCALARS, WITHOUT_CHECKSUM
 
-# Of the duration: some tens of transitions of chains drawn at random.
+# Error after some tens of transitions of random chains, relative to the duration.
 RANDOM = 1e-9
 
 
@@ -27,13 +26,13 @@ def run():
 
 @pytest.fixture
 def path(run, tmp_path):
-    """The file of the run."""
+    """Save the run and return the path."""
     run.save(tmp_path / "run.h5")
     return tmp_path / "run.h5"
 
 
 @pytest.mark.parametrize("n_blocks", [1, 4, 5, 10, 30])
-def test_the_load_at_a_transition_is_the_one_recorded(n_blocks):
+def test_tangential_load_at_a_transition_is_the_recorded_one(n_blocks):
     run = simulate(SLIDER(n_blocks, theta="-5/6"), duration=3.0)
     loads = run.tangential_load(run.transitions["time"])
     recorded = run.transitions["tangential_load"]
@@ -51,30 +50,26 @@ def test_times_may_come_in_any_order(run):
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_a_run_that_goes_on_from_its_state_at_any_time_has_the_transitions_of_the_whole(
-    seed,
-):
-    """The drive is at 0 when a run begins, so that the chain is moved back by what the
-    drive went."""
+def test_run_resumed_from_any_state_has_the_same_transitions(seed):
+    """The drive starts each run at 0, so the chain is moved back by its path."""
     rng = np.random.default_rng(seed)
     case = mild_chain(rng)
     whole = case.run()
     cut = rng.uniform(0.2, 0.8) * whole.duration
-    # Times before it let the state be found from an earlier one, and from one within
-    # the same slip.
+    # With earlier times, `at` also starts from states before this slip and within it.
     positions, velocities = whole.at([0.0, cut / 2, 0.999 * cut, cut])
     at_0 = whole.start_positions, whole.start_velocities
     np.testing.assert_allclose((positions[0], velocities[0]), at_0, rtol=1e-12)
     start = {"start_positions": positions[3] - case.chain.drive_velocity * cut}
     start |= {"start_velocities": velocities[3]}
     rest = whole.transitions[whole.transitions["time"] > cut]
-    found = first_transitions(
+    resumed = first_transitions(
         case.chain, 100, duration=1.01 * (whole.duration - cut), **start
     ).transitions
-    found = found[found["time"] > 0.0][: len(rest)]
-    assert found[["block", "mode"]].tolist() == rest[["block", "mode"]].tolist()
+    resumed = resumed[resumed["time"] > 0.0][: len(rest)]
+    assert resumed[["block", "mode"]].tolist() == rest[["block", "mode"]].tolist()
     np.testing.assert_allclose(
-        found["time"] + cut, rest["time"], rtol=0, atol=RANDOM * case.duration
+        resumed["time"] + cut, rest["time"], rtol=0, atol=RANDOM * case.duration
     )
 
 
@@ -86,26 +81,26 @@ def test_a_run_that_goes_on_from_its_state_at_any_time_has_the_transitions_of_th
         ([[0.1, 0.2]], r"one number \[s\] or a list of them, but have shape \(1, 2\)"),
     ],
 )
-def test_times_outside_the_run_or_that_are_no_numbers_are_refused(run, times, words):
+def test_times_outside_the_run_or_not_numbers_are_refused(run, times, words):
     with pytest.raises(ValueError, match="^times must be " + words):
         run.at(times)
 
 
 def without_checksum(path: Path) -> None:
-    """Make a file one of the releases that wrote no checksum."""
+    """Turn a file into one of an older release, without a checksum."""
     with h5py.File(path, "r+") as file:
         file.attrs["format"] = np.bytes_(WITHOUT_CHECKSUM)
         del file.attrs["checksum"]
 
 
 def assert_same(read: Record, run: Record) -> None:
-    """Demand that two records have the same numbers, to the last bit."""
+    """Assert that two records are equal to the last bit."""
     assert (read.chain, read.duration) == (run.chain, run.duration)
     np.testing.assert_array_equal(read.transitions, run.transitions)
     np.testing.assert_array_equal(read.intervals, run.intervals)
 
 
-def test_a_record_has_its_transitions_and_is_read_as_a_record_only(run, tmp_path):
+def test_record_round_trips_and_is_not_read_as_a_run(run, tmp_path):
     columns = [run.transitions[name] for name in run.transitions.dtype.names]
     made = Record.from_columns(run.chain, run.duration, *columns, run.intervals)
     made.save(tmp_path / "made.h5")
@@ -118,9 +113,7 @@ def test_a_record_has_its_transitions_and_is_read_as_a_record_only(run, tmp_path
     np.testing.assert_allclose(by_difference, run.intervals, atol=1e-14)
 
 
-def test_a_saved_run_comes_back_bit_for_bit_and_says_what_its_numbers_are(
-    run, tmp_path
-):
+def test_saved_run_round_trips_bit_for_bit_with_units(run, tmp_path):
     path = tmp_path / "new" / "run.h5"
     run.save(path)
     back = Run.load(path)
@@ -135,7 +128,7 @@ def test_a_saved_run_comes_back_bit_for_bit_and_says_what_its_numbers_are(
     assert path.read_bytes() == (tmp_path / "again.h5").read_bytes()
 
 
-def test_a_file_that_is_no_whole_run_is_refused_in_one_line(path):
+def test_incomplete_run_file_is_refused_in_one_line(path):
     whole = path.read_bytes()
     other = whole.replace(b"precursors run 7", b"precursors run 9", 1)
     for content in (whole[:-100], other):
@@ -144,18 +137,18 @@ def test_a_file_that_is_no_whole_run_is_refused_in_one_line(path):
             Run.load(path)
 
 
-def test_a_file_that_cannot_be_locked_is_read(run, path):
-    """As on some file systems of clusters."""
+def test_file_that_cannot_be_locked_is_read(run, path):
+    """Some file systems of clusters do not support locks."""
     with path.open("rb") as file:
         fcntl.flock(file, fcntl.LOCK_EX)
         np.testing.assert_array_equal(Run.load(path).transitions, run.transitions)
 
 
-def test_whatever_byte_is_damaged_the_file_is_refused_or_has_the_same_run(run, path):
+def test_damaged_bytes_are_refused_or_change_nothing(run, path):
     random = np.random.default_rng(2010)
     whole = path.read_bytes()
     n_refused = 0
-    assert b"GCOL" not in whole  # texts without a checksum, in which HDF5 may hang
+    assert b"GCOL" not in whole  # HDF5 may hang in texts without a checksum
     for place in random.integers(0, len(whole), 100):
         spoiled = bytearray(whole)
         spoiled[place : place + 8] = random.bytes(8)
@@ -166,13 +159,13 @@ def test_whatever_byte_is_damaged_the_file_is_refused_or_has_the_same_run(run, p
             n_refused += 1
             continue
         assert_same(read, run)
-        for kept, known in zip(read.states, run.states, strict=True):
-            np.testing.assert_array_equal(kept, known)
+        for loaded, known in zip(read.states, run.states, strict=True):
+            np.testing.assert_array_equal(loaded, known)
     assert n_refused > 50
 
 
 def other_values(values: np.ndarray) -> Iterator[np.ndarray]:
-    """What could stand in place of an array: other values, types, shapes, lengths."""
+    """Yield arrays with other values, types, shapes or lengths."""
     if values.dtype.kind == "f":
         one = values.copy()
         one.flat[np.argmax(abs(one))] *= 1 + 1e-6
@@ -186,8 +179,8 @@ def other_values(values: np.ndarray) -> Iterator[np.ndarray]:
 
 
 def changes(run: Run) -> Iterator[tuple[str, str, object]]:
-    """Names of datasets and attributes, and what is put in their place: None leaves
-    them out."""
+    """Yield names of datasets and attributes with their new values; None removes
+    them."""
     for name, values in arrays_of(run).items():
         for other in (None, *other_values(values)):
             if not np.array_equal(other, values) or other.dtype != values.dtype:
@@ -202,7 +195,7 @@ def changes(run: Run) -> Iterator[tuple[str, str, object]]:
 
 
 def changed(good: bytes, kind: str, name: str, value: object) -> bytes:
-    """The file of a run with one change."""
+    """Return the content of a run file with one change."""
     memory = BytesIO(good)
     with h5py.File(memory, "r+") as file:
         place = file.attrs if kind == "attribute" else file
@@ -217,7 +210,7 @@ def changed(good: bytes, kind: str, name: str, value: object) -> bytes:
 
 
 @pytest.mark.parametrize("has_checksum", [True, False])
-def test_each_change_of_a_file_is_refused_or_found_by_audit(has_checksum, path):
+def test_each_change_of_a_file_is_refused_on_loading_or_by_audit(has_checksum, path):
     chain = SLIDER(weights=[30.0, 0.0, 20.0, 40.0])
     run = simulate(chain, 0.8, start_positions=[0.0, 1e-6, 0.0, -1e-6])
     run.save(path)
@@ -225,24 +218,24 @@ def test_each_change_of_a_file_is_refused_or_found_by_audit(has_checksum, path):
         without_checksum(path)
     audit(Run.load(path)).raise_if_failed()
     good = path.read_bytes()
-    found = []
+    audited = []
     for change in changes(run):
         path.write_bytes(changed(good, *change))
         try:
             report = audit(Run.load(path))
         except RunFileError:
             continue
-        found.append((change, report.ok))
-    missed = [change[:2] for change, ok in found if ok]
+        audited.append((change, report.ok))
+    missed = [change[:2] for change, ok in audited if ok]
     if has_checksum:
-        assert found == []
+        assert audited == []
     else:  # nothing else in the file contradicts them
         assert missed == [("attribute", "length")]
-        assert len(found) > 20
+        assert len(audited) > 20
 
 
 @pytest.mark.parametrize("kind", ["virtual", "external", "link"])
-def test_a_dataset_of_another_file_is_refused_before_it_is_read(kind, path, tmp_path):
+def test_dataset_stored_in_another_file_is_refused(kind, path, tmp_path):
     with h5py.File(path, "r+") as file:
         n = len(file["intervals"])
         del file["intervals"]
@@ -259,7 +252,7 @@ def test_a_dataset_of_another_file_is_refused_before_it_is_read(kind, path, tmp_
         Run.load(path)
 
 
-def test_a_dataset_that_is_longer_than_its_file_is_refused(path):
+def test_dataset_longer_than_its_file_is_refused(path):
     with h5py.File(path, "r+") as file:
         del file["intervals"]
         file.create_dataset("intervals", (10**13,), "f8", chunks=True)
@@ -267,10 +260,10 @@ def test_a_dataset_that_is_longer_than_its_file_is_refused(path):
         Run.load(path)
 
 
-def test_the_file_of_a_larger_chain_is_refused_with_what_reads_it(run, path):
+def test_file_of_a_larger_chain_names_the_version_that_reads_it(run, path):
     with h5py.File(path, "r+") as file:
         del file["states"]
-        file["load_points"] = np.zeros((2, 2))  # which only such a file has
+        file["load_points"] = np.zeros((2, 2))  # only files of larger chains have it
     words = r"^\S+run\.h5 is a run of a larger chain, .* git checkout 88883c9 reads it$"
     with pytest.raises(RunFileError, match=words):
         Record.load(path)

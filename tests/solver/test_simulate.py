@@ -1,4 +1,4 @@
-"""The solver: every proved transition at its time, where runs end, the edges of the
+"""The solver: agreement with proofs, the ends of runs, and limiting cases of the
 model."""
 
 import math
@@ -12,41 +12,40 @@ from precursors.audit import audit
 from precursors.benchmark.score import problems, solution
 from precursors.model.statics import maximal_strain_positions
 
-# Errors [s] against proofs: measured are 4e-14 up to the end of the first global slip
-# and 3e-9 at 10 s. Changing the weights by a rounding does 1e-12 and 3e-8 to the exact
-# times.
+# Errors of times [s]: 4e-14 was measured up to the end of the first global slip and 3e-9
+# at 10 s. One rounding of the weights changes exact times by 1e-12 and 3e-8.
 TO_GLOBAL_SLIP = 1e-12
 TO_THE_END = 3e-8
-# The load changes by up to some 1e5 N/s in a slip: measured are 3e-12 and 2e-5 N.
+# Errors of loads [N]: 3e-12 and 2e-5 were measured. In a slip, loads change at up to 1e5
+# N/s.
 LOAD_TO_GLOBAL_SLIP = 1e-10
 LOAD_TO_THE_END = 1e-4
 ROUNDING = 4e-15  # relative, some ten roundings
-# An instant of an event is known to a rounding of the spring forces over their rate:
-# 1e-12 of a slip.
+# A rounding error of the spring forces, divided by their rate, is 1e-12 of a slip.
 SLIP_ROUNDING = 1e-11
 
 
 @pytest.mark.parametrize("problem", problems())
-def test_every_proved_transition_is_found_at_its_time_and_load(problem):
+def test_run_agrees_with_every_proved_transition(problem):
     truth = solution(problem)
-    # Of this chain's whole run roundings decide the order, as its horizon says.
+    # Later in this run, rounding decides the order; its horizon predicts this.
     if problem == "fast_drive":
         truth = truth.until_global_slip()
     run = simulate(truth.run.chain, truth.run.duration)
-    found = run.transitions
+    transitions = run.transitions
     true = truth.run.transitions
-    assert found[["block", "mode"]].tolist() == true[["block", "mode"]].tolist()
+    assert transitions[["block", "mode"]].tolist() == true[["block", "mode"]].tolist()
     early = true["time"] <= truth.until_global_slip().run.duration
-    error = abs(found["time"] - true["time"])
+    error = abs(transitions["time"] - true["time"])
     assert error[early].max() < TO_GLOBAL_SLIP
     assert error.max() < TO_THE_END
-    error = abs(found["tangential_load"] - true["tangential_load"])
+    error = abs(transitions["tangential_load"] - true["tangential_load"])
     assert error[early].max() < LOAD_TO_GLOBAL_SLIP
     assert error.max() < LOAD_TO_THE_END
 
 
-def test_times_of_ten_thousand_slips_do_not_gather_roundings():
-    """Between two slips the drive makes up for 2 (mu_s - mu_k) F_Z."""
+def test_rounding_does_not_accumulate_over_10000_slips():
+    """Between two slips the load rises by 2 (mu_s - mu_k) F_Z."""
     chain = SLIDER(n_blocks=1)
     stick = 2 * (chain.mu_s - chain.mu_k) * chain.normal_load / chain.loading_rate
     run = first_transitions(chain, 20_000, duration=1e6)
@@ -58,7 +57,7 @@ def test_times_of_ten_thousand_slips_do_not_gather_roundings():
     assert math.fsum(run.intervals) == pytest.approx(run.duration, rel=ROUNDING)
 
 
-def test_a_cap_on_transitions_keeps_the_run_so_far():
+def test_transition_limit_returns_the_run_so_far():
     most = 100
     with pytest.raises(TransitionLimitError, match="max_") as error:
         simulate(SLIDER(), duration=10.0, max_transitions=most)
@@ -73,7 +72,7 @@ def test_a_cap_on_transitions_keeps_the_run_so_far():
     )
 
 
-def test_a_chain_that_slides_without_end_meets_a_cap_on_work(monkeypatch):
+def test_endless_sliding_reaches_the_work_limit(monkeypatch):
     monkeypatch.setattr("precursors.solver.simulate.MAX_WINDOWS", 1000)
     monkeypatch.setattr("precursors.solver.batch.WINDOWS_PER_CALL", 400)
     with pytest.raises(
@@ -83,7 +82,7 @@ def test_a_chain_that_slides_without_end_meets_a_cap_on_work(monkeypatch):
     audit(error.value.run).raise_if_failed()
 
 
-def test_a_run_until_the_global_slip_stops_at_its_end_or_at_its_duration():
+def test_until_global_slip_stops_there_or_at_the_duration():
     whole = simulate(SLIDER(theta="-5/6")).transitions
     run = simulate(SLIDER(theta="-5/6"), until="global slip")
     slips = find_slips(run)
@@ -91,8 +90,8 @@ def test_a_run_until_the_global_slip_stops_at_its_end_or_at_its_duration():
     assert run.duration == slips["end"].iloc[-1]
     shorter = simulate(SLIDER(theta="-5/6"), duration=1.0, until="global slip")
     assert shorter.duration == 1.0
-    for found in (run.transitions, shorter.transitions):
-        np.testing.assert_array_equal(found, whole[: len(found)])
+    for transitions in (run.transitions, shorter.transitions):
+        np.testing.assert_array_equal(transitions, whole[: len(transitions)])
 
 
 @pytest.mark.parametrize(
@@ -122,12 +121,12 @@ def test_a_bad_argument_is_named_in_one_line(options, words):
 
 @pytest.mark.parametrize("changes", [{}, {"theta": 1.0}, {"mu_k": 0.7}], ids=str)
 @pytest.mark.parametrize("n_blocks", [2, 10, 50])
-def test_all_blocks_at_their_limit_let_go_in_one_event(n_blocks, changes):
-    """Eq. 15; also with a weightless block, and where mu_s = mu_k."""
+def test_all_blocks_at_their_limit_slip_in_one_event(n_blocks, changes):
+    """Eq. 15, also with a weightless block and with mu_s = mu_k."""
     chain = SLIDER(n_blocks, **changes)
     run = simulate(chain, 1e-3, "global slip", maximal_strain_positions(chain))
     assert find_slips(run)["front"].iloc[0] == n_blocks
-    # A block 1 without load is let go before.
+    # A weightless block 1 moves earlier.
     exact = 1e-8 if changes == {"theta": 1.0} else 1e-12
     assert run.transitions["tangential_load"][0] == pytest.approx(280.0, rel=exact)
     audit(run).raise_if_failed()
@@ -138,10 +137,8 @@ def test_all_blocks_at_their_limit_let_go_in_one_event(n_blocks, changes):
     [[50] * 4 + [0] * 2 + [50] * 4, SLIDER(theta=1).weights],
     ids=["groove", "theta = 1"],
 )
-def test_blocks_without_load_neither_prolong_an_event_nor_delay_the_global_slip(
-    weights,
-):
-    """Which lies beside that with 0.01 N in their place; the motion is chaotic."""
+def test_weightless_blocks_do_not_prolong_events(weights):
+    """mu_sapp is close to that with 0.01 N on these blocks; the motion is chaotic."""
     run = simulate(SLIDER(weights=weights), until="global slip")
     slips = find_slips(run)
     last = slips.iloc[-1]
@@ -153,8 +150,8 @@ def test_blocks_without_load_neither_prolong_an_event_nor_delay_the_global_slip(
     assert apparent_friction(run) == pytest.approx(apparent_friction(loaded), abs=0.1)
 
 
-def test_a_run_until_the_global_slip_counts_blocks_as_a_slip_table():
-    """A block with a millionth of the mean load slides on after the global slip."""
+def test_until_global_slip_ignores_nearly_weightless_blocks():
+    """A block with a millionth of the mean load still slides after the global slip."""
     weights = np.full(5, 80.0)
     weights[4] = 1e-6 * 80.0
     chain = SLIDER(weights=weights)
@@ -168,8 +165,8 @@ def test_a_run_until_the_global_slip_counts_blocks_as_a_slip_table():
     assert end == pytest.approx(run.duration, abs=TO_GLOBAL_SLIP)
 
 
-def test_a_block_without_load_rests_until_it_is_pushed():
-    """So that a slow drive takes no longer: a day to the first slip."""
+def test_weightless_block_rests_until_it_is_pushed():
+    """So a day before the first slip costs no more work with a slow drive."""
     run = simulate(SLIDER(theta=-1, drive_velocity=1e-9), 86400.0)
     assert run.transitions["block"].tolist() == [1, 1]
     assert run.at(86400.0)[1][0, -1] == 0.0

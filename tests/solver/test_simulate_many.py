@@ -1,4 +1,4 @@
-"""Ensembles: every run of `simulate_many` is that of `simulate`."""
+"""Ensembles: `simulate_many` gives the runs of `simulate`."""
 
 import numpy as np
 import pytest
@@ -7,8 +7,8 @@ from chains import SLIDER
 from precursors import Chain, Run, simulate, simulate_many
 from precursors.solver import batch as solver
 
-ROUNDING = 1e-12  # of the largest position or velocity
-# Bytes for stored states that a long run exceeds.
+ROUNDING = 1e-12  # relative to the largest position or velocity
+# Limit of the stored states that long runs exceed [bytes].
 ROOM = 2**18
 
 
@@ -26,8 +26,8 @@ def same(one: Run, other: Run) -> bool:
 
 
 def mixed() -> list[Chain]:
-    """64 chains of several lengths and loads; four have more transitions than a
-    thread's record."""
+    """Make 64 chains of several lengths and loads; four have more transitions than the
+    record of a thread holds."""
     fast = {(10, j): 2e-2 for j in range(2, 16, 4)}
     return [
         SLIDER(n, theta=j / 16, drive_velocity=fast.get((n, j), 1e-4))
@@ -37,7 +37,7 @@ def mixed() -> list[Chain]:
 
 
 @pytest.mark.parametrize("until", [None, "global slip"])
-def test_an_ensemble_is_what_its_chains_are_one_by_one(until):
+def test_ensemble_equals_its_chains_run_one_by_one(until):
     chains = mixed()
     runs = simulate_many(chains, duration=1.0, until=until, threads=2)
     assert until or max(len(run.transitions) for run in runs) > solver.SHARED_ROOM
@@ -47,9 +47,7 @@ def test_an_ensemble_is_what_its_chains_are_one_by_one(until):
     )
 
 
-def test_states_of_long_runs_are_thinned_to_the_room_they_may_take_and_known_everywhere(
-    monkeypatch,
-):
+def test_stored_states_are_thinned_without_changing_the_motion(monkeypatch):
     chains = [chain for chain in mixed() if chain.drive_velocity > 1e-4]
     runs = simulate_many(chains, 1.0, threads=2)
     times = np.linspace(0.0, 1.0, 200)
@@ -61,13 +59,13 @@ def test_states_of_long_runs_are_thinned_to_the_room_they_may_take_and_known_eve
         apart = np.diff(thin.states.after)
         assert 1 < apart.max() <= 2 * apart.min()
         np.testing.assert_array_equal(thin.transitions, run.transitions)
-        for found, known in zip(thin.at(times), run.at(times), strict=True):
+        for interpolated, known in zip(thin.at(times), run.at(times), strict=True):
             np.testing.assert_allclose(
-                found, known, rtol=0, atol=ROUNDING * abs(known).max()
+                interpolated, known, rtol=0, atol=ROUNDING * abs(known).max()
             )
 
 
-def test_runs_are_the_same_however_often_the_kernel_pauses(monkeypatch):
+def test_runs_do_not_depend_on_pauses_of_the_kernel(monkeypatch):
     chains = mixed()[:16]
     runs = simulate_many(chains, 1.0, threads=1)
     monkeypatch.setattr(solver, "SHARED_ROOM", 16)
@@ -109,7 +107,7 @@ def test_a_bad_argument_is_named_in_one_line(options, words):
     assert words in str(error.value)
 
 
-def test_chains_may_come_from_a_generator_and_what_is_no_chain_is_refused():
+def test_chains_may_be_a_generator_and_others_are_refused():
     chain = SLIDER()
     assert simulate_many([]) == []
     assert len(simulate_many(chain for _ in range(3))) == 3

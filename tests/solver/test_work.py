@@ -1,10 +1,9 @@
-"""How much work the kernel does, to the last window: a bound that is looser than it was
-costs more of it.
+"""Exact counts of the work of the kernel, which increase if a bound becomes looser.
 
-The counts do not depend on roundings: the chain with all forces times 3 or 1.1 has the
-same. They depend on all that decides what is computed: the windows (`layout`,
-`events`), the derivatives (`series`), the guessed roots and the steps to them
-(`guess`), and what the bounds (`proof`) leave to a search (`roots`).
+The counts do not depend on rounding: multiplying all forces by 3 or 1.1 does not change
+them. They depend on the windows (`layout`, `events`), the derivatives (`series`), the
+guessed roots and the steps to them (`guess`), and the cases that the bounds (`proof`)
+leave to a search (`roots`).
 """
 
 import pytest
@@ -15,13 +14,13 @@ from precursors.audit import audit
 from precursors.solver import kernel
 
 COUNTED = ["transitions", "windows", "derivatives", "searches", "root_steps"]
-# Of theta = 0 up to its first global slip. Less is better: write it down here.
+# For theta = 0 up to the first global slip. Less is better: then update the numbers.
 UNIFORM = [216, 416, 59608, 9, 665]
 
 
 @pytest.fixture
 def counted(monkeypatch):
-    """Run a chain, and return what the kernel counted."""
+    """Return a function that runs a chain and returns the counts of the kernel."""
     calls = []
     run_batch = kernel.run_batch
 
@@ -39,16 +38,16 @@ def counted(monkeypatch):
     return count
 
 
-def test_a_scene_takes_as_much_work_as_it_did(counted):
+def test_work_for_a_scene_is_unchanged(counted):
     assert counted(SLIDER(theta=0.0), 1000, until="global slip") == UNIFORM
 
 
-def test_blocks_that_feel_the_drive_late_cost_no_search(counted):
-    """Without friction all let go at once; the drive moves block 5 as t^9, which is
-    flat for long."""
+def test_blocks_far_from_the_drive_need_no_long_search(counted):
+    """Without friction all blocks move at once. Block 5 moves as t^9, which stays nearly
+    zero for long."""
     chain = Chain([10.0] * 5, 2.84e-5, 25e6, 2.7e11, 8.4e-5, 0.0, 0.0)
     audit(simulate(chain, 4.6e-7)).raise_if_failed()
     transitions, windows, _, _, root_steps = counted(chain, 1000, duration=4.6e-7)
     assert transitions == 5
     assert windows < 100
-    assert root_steps < 5000  # without starting anew: millions
+    assert root_steps < 5000  # millions without restarting the search

@@ -1,4 +1,4 @@
-"""Compiled code is kept on disk, and compiled anew after an edit of any module it was
+"""Compiled code is cached on disk, and compiled anew after an edit of any module it was
 made from."""
 
 import json
@@ -14,9 +14,8 @@ from precursors.solver import kernel
 from precursors.support.compiled import CACHED_VERSIONS, checksum
 
 KERNEL = Path(kernel.__file__).parent
-PATIENCE = 300.0  # s: a start takes some seconds, far more only if it hangs
-# A kernel in small: a function that Python calls, and one that it calls in another
-# file.
+PATIENCE = 300.0  # [s]; a start takes a few seconds unless it hangs
+# A small kernel: a function that Python calls, and one in another file that it calls.
 ENTRY = """
 from small.decorators import outer
 from small.part import times
@@ -40,12 +39,12 @@ with event.install_listener("numba:compile", Announcement()):
     from small.entry import entry
     print(json.dumps([entry(2), sum(entry.stats.cache_hits.values())]))
 """
-SAID = "compiling the solver for this machine, once: some 10 s\n"
+NOTICE = "compiling the solver for this machine, once: some 10 s\n"
 
 
 class Small:
-    """A package with a copy of the kernel's decorators, used in processes of its
-    own."""
+    """A package with a copy of the decorators of the kernel, used in its own
+    processes."""
 
     def __init__(self, directory: Path) -> None:
         self.directory = directory
@@ -61,12 +60,11 @@ class Small:
         (self.package / name).write_text(text, encoding="utf-8")
 
     def use(self) -> tuple[int, int, str]:
-        """What the entry point returns for 2, how often it came from the cache, and
-        what stderr says."""
+        """Return the result for 2, the number of cache hits, and standard error."""
         inherited = {
             key: value for key, value in os.environ.items() if key != "NUMBA_CACHE_DIR"
         }
-        # Python would take bytecode for that of an edit in the same second.
+        # Python would use old bytecode after an edit within the same second.
         inherited |= {"XDG_CACHE_HOME": str(self.cache), "PYTHONDONTWRITEBYTECODE": "1"}
         process = subprocess.run(
             [sys.executable, "-c", USE],
@@ -85,20 +83,18 @@ def small(tmp_path):
     return Small(tmp_path / "with spaces, Ümläute and 摩擦")
 
 
-def test_another_clone_of_the_user_compiles_nothing_until_an_edit_and_old_code_is_removed(
-    small, tmp_path
-):
-    assert small.use() == (7, 0, SAID)
+def test_clones_share_compiled_code_until_an_edit(small, tmp_path):
+    assert small.use() == (7, 0, NOTICE)
     (place,) = small.cache.glob("precursors/*")
     clone = Small(tmp_path / "clone")
     clone.cache = small.cache
     assert clone.use() == (7, 1, "")
-    # As a power cut or a full disk leaves them: empty, and without an end.
+    # Empty and truncated files, as after a power cut or on a full disk.
     for i, file in enumerate(sorted(place.iterdir())):
         file.write_bytes(file.read_bytes()[: 100 * i])
-        assert clone.use() == (7, 0, SAID)
+        assert clone.use() == (7, 0, NOTICE)
     clone.write("part.py", PART.replace("3 * x", "5 * x"))
-    assert clone.use() == (11, 0, SAID)
+    assert clone.use() == (11, 0, NOTICE)
     (edited,) = set(small.cache.glob("precursors/*")) - {place}
     others = [place.with_name(f"small-{i}") for i in range(CACHED_VERSIONS + 1)]
     for i, other in enumerate(others):
@@ -108,7 +104,7 @@ def test_another_clone_of_the_user_compiles_nothing_until_an_edit_and_old_code_i
     assert set(small.cache.glob("precursors/*")) == {place, edited, *others[3:]}
 
 
-def test_an_edit_of_any_module_and_a_new_name_change_the_checksum(tmp_path):
+def test_edits_and_new_names_change_the_checksum(tmp_path):
     copy = shutil.copytree(
         KERNEL, tmp_path / "kernel", ignore=shutil.ignore_patterns("__pycache__")
     )
@@ -121,8 +117,8 @@ def test_an_edit_of_any_module_and_a_new_name_change_the_checksum(tmp_path):
     assert len({*sums, checksum(copy)}) == len(sums) + 1
 
 
-def test_where_nothing_can_be_written_it_compiles_and_says_so(small):
-    # A file where a directory should be stops root as well.
+def test_unwritable_cache_compiles_with_a_warning(small):
+    # A file in place of a directory also stops root.
     (small.package / "__pycache__").write_text("")
     small.cache.write_text("")
     result, hits, warnings = small.use()

@@ -1,5 +1,4 @@
-"""The digest of a job's code: it changes with what the job computes, and with nothing
-else."""
+"""The digest of the code of a job changes only with what the job computes."""
 
 import pytest
 
@@ -58,13 +57,11 @@ SUMS_FILE = "src/precursors/room/sums.py"
         (SUMS_FILE, SUMS.replace("a + b", "a - b"), True),
         ("src/precursors/given.py", "class Given:\n    x = 1\n", True),
         ("src/precursors/whole.py", "x = 2\n", True),
-        # by a name that only a run knows
+        # imported by a name that is only known at run time
         ("src/precursors/parts/one.py", "x = 2\n", True),
     ],
 )
-def test_the_digest_changes_with_what_is_computed_and_nothing_else(
-    root, name, text, changes
-):
+def test_digest_changes_only_with_what_is_computed(root, name, text, changes):
     digests = []
     for content in (FILES[name], text):
         (root / name).write_text(content, encoding="utf-8")
@@ -73,7 +70,7 @@ def test_the_digest_changes_with_what_is_computed_and_nothing_else(
     assert (digests[0] != digests[1]) == changes
 
 
-def test_a_script_that_is_missing_or_there_twice_is_named(root):
+def test_missing_or_duplicate_script_is_named(root):
     with pytest.raises(OSError, match=r"missing\.py must be one .* but there are 0"):
         digest.digest_code(root, "missing")
     (root / "workflow/script.py").touch()

@@ -1,4 +1,4 @@
-"""A file is complete or absent, and what was there before is never half overwritten."""
+"""A file is written completely or not at all; an old file is never half overwritten."""
 
 import os
 import resource
@@ -28,7 +28,7 @@ WRITERS = {
 }
 
 
-def test_a_file_is_written_with_its_directories_and_is_an_ordinary_one(tmp_path):
+def test_file_is_written_with_its_directories_and_normal_mode(tmp_path):
     path = tmp_path / "deep" / "er" / "table.csv"
     write_whole(path, b"a,b\n")
     assert path.read_bytes() == b"a,b\n"
@@ -40,7 +40,7 @@ def test_a_file_is_written_with_its_directories_and_is_an_ordinary_one(tmp_path)
 
 
 @pytest.mark.parametrize("name", WRITERS)
-def test_where_there_is_no_room_the_old_file_stays_and_one_line_says_so(tmp_path, name):
+def test_full_disk_leaves_the_old_file_and_reports_one_line(tmp_path, name):
     path = tmp_path / name
     WRITERS[name](path)
     old = path.read_bytes()
@@ -55,9 +55,7 @@ def test_where_there_is_no_room_the_old_file_stays_and_one_line_says_so(tmp_path
     assert os.listdir(tmp_path) == [name]
 
 
-def test_the_file_is_not_there_before_it_is_whole_and_each_writer_has_its_own_until_then(
-    tmp_path, monkeypatch
-):
+def test_file_appears_only_when_it_is_complete(tmp_path, monkeypatch):
     def killed(temporary, target):
         (name,) = os.listdir(tmp_path)
         assert name not in names
@@ -73,7 +71,7 @@ def test_the_file_is_not_there_before_it_is_whole_and_each_writer_has_its_own_un
 
 
 @pytest.mark.parametrize("where", ["file/deeper/table.csv", "directory"])
-def test_an_unwritable_place_is_refused_in_one_line_that_names_it(tmp_path, where):
+def test_unwritable_place_is_named_in_one_line(tmp_path, where):
     (tmp_path / "file").write_text("x")
     (tmp_path / "directory").mkdir()
     for write in (check_writable, lambda path: write_text(path, "")):
@@ -97,7 +95,7 @@ def test_a_link_is_followed_and_stays_a_link(tmp_path):
     assert (tmp_path / "table.csv").read_text() == "new"
 
 
-def test_a_table_keeps_every_digit_and_what_is_no_table_is_refused_by_name(tmp_path):
+def test_table_keeps_every_digit_and_other_formats_are_refused(tmp_path):
     path = tmp_path / "table.csv"
     write_table(TABLE, path)
     pd.testing.assert_frame_equal(read_table(path), TABLE, check_exact=True)
@@ -106,6 +104,6 @@ def test_a_table_keeps_every_digit_and_what_is_no_table_is_refused_by_name(tmp_p
         read_table(path)
 
 
-def test_an_ending_is_no_name(tmp_path):
+def test_ending_alone_is_not_a_file_name(tmp_path):
     with pytest.raises(ValueError, match=r"/\.png must end in \.svg or \.png"):
         check_writable(tmp_path / ".png", (".svg", ".png"))

@@ -1,4 +1,4 @@
-"""Measured tables are read as their names and units say, or refused in one line."""
+"""Measured tables are read by their names and units, or refused in one line."""
 
 import numpy as np
 import pandas as pd
@@ -117,11 +117,11 @@ def test_columns_are_read_by_name_and_unit_or_chosen(file, text, how):
         ("Zeit [s];Kraft [N]\nä".encode("cp1252"), {}, "not UTF-8"),
     ],
 )
-def test_a_curve_that_is_not_certain_is_refused(file, text, how, about):
+def test_ambiguous_curve_is_refused(file, text, how, about):
     refuses(lambda path: curve(path, **how), file(text), about)
 
 
-def test_a_table_of_pandas_goes_by_the_same_rules():
+def test_pandas_table_follows_the_same_rules():
     frame = pd.DataFrame({"F_X [kN]": [0.001, 0.0805], "t [s]": [0, 0.5]}, [7, 3])
     np.testing.assert_allclose(curve(frame), ROWS, rtol=1e-15)
     for wrong, about in (
@@ -149,7 +149,7 @@ def test_a_table_of_pandas_goes_by_the_same_rules():
         ("w [N]\n1,000\n", "line 2: cells: 2, columns: 1"),
     ],
 )
-def test_normal_loads_are_one_a_block(file, text, about):
+def test_normal_loads_are_read_one_per_block(file, text, about):
     if about:
         refuses(read_weights, file(text), about)
     else:
@@ -181,7 +181,7 @@ def test_front_lengths_are_shares_of_the_slider(file, front):
     refuses(curve, path, "line 2: L_p/L must be between 0 and 1")
 
 
-def test_front_lengths_are_read_over_the_load(file):
+def test_front_lengths_are_read_against_the_load(file):
     path = file("F_X [N],L_p [mm]\n60,20\n120,50\n190,100\n")
     ((_, values),) = read_series(path, LOAD, [LENGTH], 0.1)
     assert values.tolist() == [[60.0, 0.2], [120.0, 0.5], [190.0, 1.0]]
@@ -194,7 +194,7 @@ def test_a_table_may_have_loads_and_front_lengths(file):
     assert (loads[1].tolist(), lengths[1].tolist()) == ([[0.0, 1.0]], [[0.0, 0.2]])
 
 
-def test_what_may_have_no_end_is_not_read(file, monkeypatch):
+def test_endless_or_special_file_is_not_read(file, monkeypatch):
     with pytest.raises(OSError, match="/dev/zero: it is not a regular file"):
         read_weights("/dev/zero")
     monkeypatch.setattr(files, "MOST_READ", 3)

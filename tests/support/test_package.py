@@ -1,4 +1,4 @@
-"""The package: its public names, what it loads, and its wheel."""
+"""The package: its public names, its imports and its wheel."""
 
 import json
 import re
@@ -14,14 +14,14 @@ from places import ROOT
 import precursors
 from precursors.support.checkout import git_state
 
-# The compiler, and what only simulations and tables need.
+# The compiler, and packages that only simulations and tables need.
 HEAVY = {"numba", "h5py", "pandas"}
-# What the rules of the workflow import.
+# Imports of the rules of the workflow.
 RULES = "from maegawa2010.paper import documents, inputs"
 
 
 def loaded(program: str) -> set[str]:
-    """Modules that a program has loaded when it ends, in a process of its own."""
+    """Run a program in its own process and return the modules that it has imported."""
     command = [sys.executable, "-c", f"import sys\n{program}\nprint(*sys.modules)"]
     return set(
         subprocess.run(
@@ -31,7 +31,7 @@ def loaded(program: str) -> set[str]:
 
 
 @pytest.mark.parametrize("name", precursors.__all__)
-def test_every_public_name_is_there(name):
+def test_every_public_name_is_importable(name):
     assert getattr(precursors, name).__name__ == name
     assert name in dir(precursors)
     assert not hasattr(precursors, f"{name}s")
@@ -49,12 +49,12 @@ def test_every_public_name_is_there(name):
         (RULES, HEAVY | {"matplotlib", "scipy", "sympy"}),
     ],
 )
-def test_nothing_is_loaded_before_it_is_needed(program, missing):
+def test_modules_are_imported_only_when_needed(program, missing):
     assert not loaded(program) & missing
 
 
-def test_the_library_works_without_its_extras():
-    """What only the workflow, the paper, the page and the proof need is not there."""
+def test_library_works_without_its_extras():
+    """Packages for the workflow, the paper, the page and the proof are missing."""
     text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
     project = tomllib.loads(text)["project"]
     extras = set(map(package, chain(*project["optional-dependencies"].values())))
@@ -85,24 +85,24 @@ def package(requirement: str) -> str:
     return re.match(r"[\w-]+", requirement)[0]
 
 
-def test_the_wheel_has_every_file_of_the_package_and_its_commit(tmp_path):
+def test_wheel_has_every_file_of_the_package_and_its_commit(tmp_path):
     program = f"from hatchling.build import build_wheel; print(build_wheel({str(tmp_path)!r}))"
     done = subprocess.run(
         [sys.executable, "-c", program], cwd=ROOT, capture_output=True, text=True
     )
     assert done.returncode == 0, done.stderr
     with zipfile.ZipFile(tmp_path / done.stdout.split()[-1]) as wheel:
-        found = {name for name in wheel.namelist() if ".dist-info/" not in name}
+        packed = {name for name in wheel.namelist() if ".dist-info/" not in name}
         wheel.extractall(tmp_path)
     paths = {path for path in (ROOT / "src").rglob("*") if path.is_file()}
-    # Caches of Python and Numba may lie there, too.
+    # Exclude caches of Python and Numba.
     wanted = {
         str(path.relative_to(ROOT / "src"))
         for path in paths
         if "__pycache__" not in path.parts
     }
-    assert found == wanted
-    assert "precursors/py.typed" in found
+    assert packed == wanted
+    assert "precursors/py.typed" in packed
     program = (
         f"import sys; sys.path.insert(0, {str(tmp_path)!r}); "
         "from precursors.benchmark.score import problems; print(*problems().values())"
@@ -111,7 +111,7 @@ def test_the_wheel_has_every_file_of_the_package_and_its_commit(tmp_path):
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
     ).stdout.split()
     if state := git_state(ROOT):  # not in an archive of the sources
-        [told] = tmp_path.glob("*.dist-info/extra_metadata/commit.json")
-        assert json.loads(told.read_text()) == state
+        [record] = tmp_path.glob("*.dist-info/extra_metadata/commit.json")
+        assert json.loads(record.read_text()) == state
     assert len(listed) == 8
     assert all(path.startswith(str(tmp_path)) for path in listed)

@@ -1,4 +1,4 @@
-"""Provenance says what computed the results, with and without git."""
+"""Provenance records what computed the results, with and without git."""
 
 import json
 import os
@@ -12,13 +12,11 @@ from places import ROOT
 from maegawa2010.support.provenance import provenance
 from precursors.support.checkout import git_state
 
-# FIPS 180-4.
+# From FIPS 180-4.
 SHA256_OF_ABC = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
 
 
-def test_everything_that_computed_is_named_and_every_input_and_output_has_its_checksum(
-    tmp_path, monkeypatch
-):
+def test_provenance_lists_software_and_checksums(tmp_path, monkeypatch):
     for name in (
         "tables/a.csv",
         "figures/a.svg",
@@ -30,14 +28,14 @@ def test_everything_that_computed_is_named_and_every_input_and_output_has_its_ch
         (tmp_path / name).write_text("abc")
     monkeypatch.setenv("PATH", "")  # without git
     config = {"duration": 10.0}
-    found = provenance(config, ROOT, tmp_path)
-    assert found["software"]["python"].endswith(platform.python_version())
-    assert found["software"]["git"] is None
-    assert found["packages"]["numba"] == version("numba")
-    assert found["machine"]["processor"]
-    assert platform.node() not in found["machine"].values()
-    assert found["config"] == config
-    assert json.loads(json.dumps(found)) == found
+    record = provenance(config, ROOT, tmp_path)
+    assert record["software"]["python"].endswith(platform.python_version())
+    assert record["software"]["git"] is None
+    assert record["packages"]["numba"] == version("numba")
+    assert record["machine"]["processor"]
+    assert platform.node() not in record["machine"].values()
+    assert record["config"] == config
+    assert json.loads(json.dumps(record)) == record
     needed = {
         "Snakefile",
         "config.yaml",
@@ -45,20 +43,18 @@ def test_everything_that_computed_is_named_and_every_input_and_output_has_its_ch
         "paper/paper.typ",
         "src/precursors/cli/options.py",
     }
-    assert needed <= set(found["inputs"])
+    assert needed <= set(record["inputs"])
     assert not [
         name
-        for name in found["inputs"]
+        for name in record["inputs"]
         if "__pycache__" in name or name.startswith("results/")
     ]
-    assert found["outputs"] == dict.fromkeys(
+    assert record["outputs"] == dict.fromkeys(
         ["tables/a.csv", "figures/a.svg"], SHA256_OF_ABC
     )
 
 
-def test_the_commit_and_its_software_hash_identifiers_are_those_of_git(
-    tmp_path, monkeypatch
-):
+def test_commit_and_software_hash_identifiers_match_git(tmp_path, monkeypatch):
     def git(*command):
         identity = ["-c", "user.name=a", "-c", "user.email=a@example.org"]
         command = ["git", "-C", tmp_path, *identity, *command]

@@ -1,5 +1,4 @@
-"""Quantiles, intervals of a median and of a share, and what a difference of medians
-says."""
+"""Quantiles, and confidence intervals of medians, shares and differences of medians."""
 
 import numpy as np
 import pandas as pd
@@ -20,20 +19,20 @@ def test_the_interval_of_a_median_needs_six_values():
     assert np.isnan(median_interval(np.arange(5.0))).all()
 
 
-def test_the_interval_of_a_share_begins_at_zero_if_nothing_was_seen():
-    """It ends where so rare a hit is missed in 2.5 % of cases."""
+def test_interval_of_a_share_starts_at_zero_without_hits():
+    """It ends at the share that gives no hit in 2.5 % of cases."""
     assert share_interval(0, 6) == pytest.approx((0.0, 1.0 - 0.025 ** (1 / 6)))
 
 
-def test_nine_tenths_of_21_numbers_lie_between_the_second_and_the_last_but_one():
-    """0, 1, ..., 20, and one that is not known."""
+def test_quantiles_of_21_numbers_are_the_second_and_the_20th():
+    """The numbers are 0, 1, ..., 20 and one NaN, which is ignored."""
     values = pd.Series([*np.random.default_rng(1).permutation(21), np.nan])
     expected = {"q05": 1.0, "q50": 10.0, "q95": 19.0}
     assert nine_tenths(values) == pytest.approx(expected)
 
 
-def test_the_interval_of_a_difference_of_medians_ends_at_values_of_both():
-    """Of 0, 1, ..., 39 the 13th from either end holds the median in 97.5 % of cases."""
+def test_interval_of_a_difference_ends_at_values_of_both():
+    """The 13th of 40 numbers from either end bounds the median in 97.5 % of cases."""
     values = pd.Series(np.arange(40.0))
     assert median_difference(values + 100.0, values) == (100.0 - 15.0, 100.0 + 15.0)
 
@@ -46,7 +45,5 @@ def test_the_interval_of_a_difference_of_medians_ends_at_values_of_both():
         (0.011, 0.03, "different"),
     ],
 )
-def test_an_interval_lies_within_the_tolerance_across_its_edge_or_outside(
-    low, high, verdict
-):
+def test_interval_is_within_across_or_outside_the_tolerance(low, high, verdict):
     assert compared(low, high, tolerance=0.01) == verdict

@@ -1,5 +1,5 @@
-"""Tasks that are compared are timed in turns, short ones repeatedly, without collecting
-garbage."""
+"""Compared tasks are timed in turns, short ones repeatedly, and without garbage
+collection."""
 
 import contextlib
 import gc
@@ -12,7 +12,7 @@ from maegawa2010.support.timing import Seconds
 
 @pytest.fixture
 def task(clock):
-    """A task whose first call takes 1 s, and each one more than the one before."""
+    """A task whose first call takes 1 s, and each next call 1 s more."""
     calls = []
 
     def task():
@@ -32,20 +32,20 @@ def test_tasks_take_turns_after_each_is_called_twice():
     assert [len(of.rounds) for of in timings.values()] == [3, 3]
 
 
-def test_a_round_counts_the_mean_of_calls_that_take_long_enough_together(task):
-    """The task takes 2 s when warm: five calls a round, 3 to 7 s, ..."""
+def test_short_tasks_are_repeated_within_a_round_and_averaged(task):
+    """The second call takes 2 s, so a round has five calls, at first of 3 to 7 s."""
     measured = timing.measure({"task": task}, 3, 10.0)["task"]
     assert measured.rounds == [(5.0, 2.5), (10.0, 5.0), (15.0, 7.5)]
     assert measured.seconds == 10.0
 
 
-def test_a_ratio_is_the_median_of_the_rounds_ratios():
+def test_ratio_is_the_median_of_the_ratios_of_rounds():
     one = timing.Timing([Seconds(1.0, 2.0), Seconds(10.0, 2.0), Seconds(1.0, 2.0)])
     other = timing.Timing([Seconds(3.0, 5.0), Seconds(20.0, 5.0), Seconds(4.0, 5.0)])
     assert one.times_faster_than(other) == (3.0, 2.5)
 
 
-def test_garbage_is_collected_between_tasks_only_and_again_afterwards(clock):
+def test_garbage_is_collected_only_between_tasks(clock):
     seen = []
 
     def fail_when_warm():

@@ -1,4 +1,4 @@
-"""Who waits at a terminal is told how much of long work is done, and nobody else."""
+"""Long work shows its progress at a terminal, and only there."""
 
 import io
 import re
@@ -12,9 +12,7 @@ from precursors.support import waiting
 
 
 @pytest.mark.parametrize("is_terminal", [True, False])
-def test_results_come_in_order_and_a_terminal_is_told_how_much_is_done(
-    is_terminal, monkeypatch
-):
+def test_results_are_in_order_and_progress_is_shown(is_terminal, monkeypatch):
     stream = io.StringIO()
     stream.isatty = lambda: is_terminal
     monkeypatch.setattr("sys.stderr", stream)
@@ -26,19 +24,19 @@ def test_results_come_in_order_and_a_terminal_is_told_how_much_is_done(
 
     tasks = [partial(task, number) for number in range(8)]
     assert waiting.in_threads(tasks, 2) == list(range(0, 16, 2))
-    is_told = re.search(r"running: [1-9]\d%", stream.getvalue()) is not None
-    assert is_told == is_terminal
+    is_shown = re.search(r"running: [1-9]\d%", stream.getvalue()) is not None
+    assert is_shown == is_terminal
 
 
 def test_there_are_no_more_threads_than_tasks():
     tasks = [lambda: threading.active_count()] * 2
     before = threading.active_count()
-    # Beside the workers, a pool has three threads of its own.
+    # A pool has three threads besides its workers.
     assert max(waiting.in_threads(tasks, 1000)) <= before + len(tasks) + 3
     assert waiting.in_threads([], 1000) == []
 
 
-def test_after_an_error_no_task_is_started_and_one_at_work_is_not_waited_for():
+def test_error_starts_no_task_and_waits_for_none():
     begun = []
 
     def task(seconds):

@@ -39,4 +39,4 @@ def test_settings_of_ones_own_are_run_and_the_article_is_left_out(workspace):
     assert outcome.code == 0, outcome.text
     assert "run_resolution" in outcome.jobs
     assert not {"check_resolution", "check_balance", "write_paper"} & outcome.jobs
-    assert "about the paper's study resolution" in outcome.text
+    assert "describes the paper's study resolution" in outcome.text

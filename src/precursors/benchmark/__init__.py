@@ -1,1 +1,1 @@
-"""Lists of transitions compared with proved ones."""
+"""Compare and score lists of transitions against proved ones."""

@@ -1,5 +1,5 @@
-"""Distance of any method's run from the truth: order, times and loads of transitions
-and slips."""
+"""Compare a run of any method with the truth: the order, times and loads of its
+transitions and slips."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from precursors.solver.run import Record
 if TYPE_CHECKING:
     from precursors.proof import Certificate
 
-# What Figs. 10-13 show of a slip event, apart from when and under which load.
+# What Figs. 10-13 show of a slip event besides its time and load.
 OUTCOME = ["front", "is_global"]
 
 
@@ -29,11 +29,11 @@ Transition = tuple[Fraction, int, int, Fraction]
 
 @dataclass(frozen=True, eq=False)
 class Truth:
-    """The true transitions, which runs are compared with: rounded to doubles in a run,
-    and the remainders.
+    """The true transitions: a run with their times and loads rounded to doubles, and
+    the rounding remainders.
 
-    `time_rest` [s] and `load_rest` [N], shape (n_transitions,), are true numbers less
-    rounded ones.
+    `time_rest` [s] and `load_rest` [N], shape (n_transitions,), are the true numbers
+    minus the rounded ones.
     """
 
     run: Record
@@ -44,7 +44,7 @@ class Truth:
     def exact(
         cls, chain: Chain, duration: float, transitions: Sequence[Transition]
     ) -> Truth:
-        """Take transitions in exact numbers, all there are up to `duration` [s]."""
+        """Make the truth from all exact transitions up to `duration` [s]."""
         times, blocks, modes, loads = (
             zip(*transitions, strict=True) if transitions else ((),) * 4
         )
@@ -57,8 +57,8 @@ class Truth:
 
     @classmethod
     def proved(cls, certificate: Certificate) -> Truth:
-        """Take what a certificate proves, the midpoints of its enclosures, as far as it
-        goes."""
+        """Make the truth from a certificate, with the midpoints of its enclosures, up to
+        the time to which it is proved."""
         transitions = [
             (t.time.midpoint, t.block, t.mode, t.tangential_load.midpoint)
             for t in certificate.transitions
@@ -70,7 +70,7 @@ class Truth:
         return cls.exact(certificate.chain.to_chain(), duration, transitions)
 
     def until_global_slip(self) -> Truth:
-        """Cut as a run is, see `until_global_slip`."""
+        """Cut the truth as the function `until_global_slip` cuts a run."""
         run = until_global_slip(self.run)
         n = len(run.transitions)
         return Truth(run, self.time_rest[:n], self.load_rest[:n])
@@ -78,15 +78,14 @@ class Truth:
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """Agreement of a run with the truth: how far it goes, and how close it is up to
-    there.
+    """Agreement of a run with the truth: how long it lasts, and the errors until then.
 
-    A transition is right if its block and mode are; a slip event, if its front is, and
-    whether all blocks slid at once. What is right ends with the first that is wrong or
-    missing. `time_errors` [s] are those of right transitions, `load_error` is the
-    largest of F_X at the onsets of right slips [N], NaN if none is; `first_difference`
-    is the time [s] of the first transition that is true or found but not both, infinite
-    if there is none.
+    A transition is right if its block and mode are right. A slip event is right if its
+    front is right, and whether all blocks slid at once. Counting stops at the first
+    transition, or slip event, that is wrong or missing. `time_errors` [s] belong to the
+    right transitions. `load_error` [N] is the largest error of F_X at the onsets of
+    right slips, NaN if there are none. `first_difference` [s] is the time of the first
+    transition that is only in the run or only in the truth, infinite if there is none.
     """
 
     transitions_right: int
@@ -98,16 +97,15 @@ class Comparison:
 
     @property
     def time_error(self) -> float:
-        """Largest error of the times of the transitions that are right [s]; NaN if none
-        is."""
+        """Largest time error of the right transitions [s]; NaN if there are none."""
         return _largest(self.time_errors)
 
 
 def until_global_slip(run: Record) -> Record:
-    """Cut a run to the end of its first global slip, as `simulate(..., until="global
+    """Cut a run at the end of its first global slip, as `simulate(..., until="global
     slip")` does.
 
-    Without one, or if it does not end, nothing is cut.
+    The run is returned unchanged if it has no global slip or ends during it.
     """
     slips = slip_events(run)
     ends = slips["end_s"][slips["is_global"]]
@@ -120,17 +118,17 @@ def until_global_slip(run: Record) -> Record:
 
 
 def compare(run: Record, truth: Truth) -> Comparison:
-    """Compare a run with the truth over the same time, both to the end or both to the
-    first global slip.
+    """Compare a run with the truth over the same time: both must go to the end, or both
+    to the first global slip.
 
-    After the first difference, and soon after the first global slip, the motions are as
-    different as those of two chains: chaotic. So only what comes before the first
-    difference has an error.
+    The motion is chaotic. After the first difference, and soon after the first global
+    slip, run and truth differ as much as the motions of two chains. Errors are
+    therefore computed only before the first difference.
 
     Raises
     ------
     ValueError
-        If the chains do not have equally many blocks.
+        If the chains have different numbers of blocks.
     """
     true_run = truth.run
     if run.chain.n_blocks != true_run.chain.n_blocks:
@@ -138,7 +136,7 @@ def compare(run: Record, truth: Truth) -> Comparison:
             f"the run must have as many blocks as the truth, {true_run.chain.n_blocks}, "
             f"but has {run.chain.n_blocks}"
         )
-    found = run.transitions
+    transitions = run.transitions
     true = true_run.transitions
     n = transitions_right(run, true_run)
     slips = slip_events(run)
@@ -148,18 +146,23 @@ def compare(run: Record, truth: Truth) -> Comparison:
     loads, true_loads = (of["load_before_N"][:n_slips] for of in (slips, true_slips))
     return Comparison(
         transitions_right=n,
-        transitions_found=len(found),
+        transitions_found=len(transitions),
         transitions_true=len(true),
-        time_errors=abs(found["time"][:n] - true["time"][:n] - truth.time_rest[:n]),
+        time_errors=abs(
+            transitions["time"][:n] - true["time"][:n] - truth.time_rest[:n]
+        ),
         load_error=_largest(abs(loads - true_loads - truth.load_rest[onsets])),
         first_difference=float(
-            min([*found["time"][n : n + 1], *true["time"][n : n + 1]], default=np.inf)
+            min(
+                [*transitions["time"][n : n + 1], *true["time"][n : n + 1]],
+                default=np.inf,
+            )
         ),
     )
 
 
 def _rounded(numbers: Sequence[Fraction]) -> tuple[FloatArray, FloatArray]:
-    """Doubles, and what is left of the numbers, as doubles too."""
+    """Return the nearest doubles and the remainders, also as doubles."""
     nearest = [float(x) for x in numbers]
     rest = [float(x - Fraction(y)) for x, y in zip(numbers, nearest, strict=True)]
     return np.array(nearest, float), np.array(rest, float)

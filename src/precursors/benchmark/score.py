@@ -1,4 +1,4 @@
-"""Scores of result files on the proved problems of docs/benchmark.md."""
+"""Score result files on the proved problems of docs/benchmark.md."""
 
 import math
 import re
@@ -26,14 +26,14 @@ Rows = list[Any]
 
 
 def problems() -> dict[str, Path]:
-    """Names of the problems, with the certificates of their solutions."""
+    """Return the certificate file of each problem, by its name."""
     files = sorted(CERTIFICATES.glob("*.json.gz"))
     return {path.name.removesuffix(".json.gz"): path for path in files}
 
 
 @cache
 def solution(problem: str) -> Truth:
-    """The proved transitions of a problem."""
+    """Return the proved transitions of a problem."""
     known = problems()
     require(problem in known, problem, f"the problems are {', '.join(known)}")
     return Truth.proved(Certificate.load(known[problem]))
@@ -42,9 +42,14 @@ def solution(problem: str) -> Truth:
 def score(path: str | Path, problem: str, ties: float = 0.0) -> dict[str, Any]:
     """Compare a result file with the proved solution of a problem.
 
-    Rows whose times differ by at most `ties` [s] may stand in any order. Errors are the
-    largest before the first wrong transition; NaN is what the file does not tell. A
-    file that is no result of the problem is a ValueError in one line.
+    Rows whose times differ by at most `ties` [s] may be in any order. Errors are the
+    largest before the first wrong transition. A value is NaN if the file ends too early
+    to know it.
+
+    Raises
+    ------
+    ValueError
+        If the file is not a result of this problem; the message is one line.
     """
     truth = solution(problem)
     chain = truth.run.chain
@@ -56,9 +61,9 @@ def score(path: str | Path, problem: str, ties: float = 0.0) -> dict[str, Any]:
     true = truth.run.transitions.tolist()
     ordered = in_true_order(given, true, Decimal(repr(not_negative("ties", ties, "s"))))
     columns = np.array(ordered, dtype=float).reshape(-1, len(NEEDED)).T
-    found = Record.from_columns(chain, end, *columns)
-    whole = compare(found, truth)
-    start = compare(until_global_slip(found), truth.until_global_slip())
+    result = Record.from_columns(chain, end, *columns)
+    whole = compare(result, truth)
+    start = compare(until_global_slip(result), truth.until_global_slip())
     values = {
         "problem": problem,
         "transitions_right": whole.transitions_right,
@@ -70,7 +75,7 @@ def score(path: str | Path, problem: str, ties: float = 0.0) -> dict[str, Any]:
         "time_error_to_global_slip_s": start.time_error,
         "load_error_to_global_slip_N": start.load_error,
     }
-    for which, run in (("", found), ("_true", truth.run)):
+    for which, run in (("", result), ("_true", truth.run)):
         numbers = summary_of(slip_table(run))
         counted = numbers.events_counted if numbers.reached else math.nan
         values |= {
@@ -81,17 +86,17 @@ def score(path: str | Path, problem: str, ties: float = 0.0) -> dict[str, Any]:
 
 
 def in_words(transitions: Rows) -> str:
-    """The first of some transitions."""
+    """Describe the first transition of a list, or return "none"."""
     words = (
         f"block {i} to mode {m} at {float(t):.12g} s" for t, i, m, _ in transitions
     )
     return next(words, "none")
 
 
-def in_true_order(found: Rows, true: Rows, ties: Decimal) -> Rows:
-    """Order transitions no farther apart than `ties` [s] as the truth does."""
-    ordered = list(found)
-    for k, (_, block, mode, _) in enumerate(true[: len(found)]):
+def in_true_order(listed: Rows, true: Rows, ties: Decimal) -> Rows:
+    """Reorder transitions that are at most `ties` [s] apart as in the truth."""
+    ordered = list(listed)
+    for k, (_, block, mode, _) in enumerate(true[: len(listed)]):
         end = ordered[k][0] + ties
         tied = takewhile(end.__ge__, (time for time, *_ in ordered[k:]))
         blocks = [row[1] for row in ordered[k : k + len(list(tied))]]
@@ -103,7 +108,7 @@ def in_true_order(found: Rows, true: Rows, ties: Decimal) -> Rows:
 
 
 def read_result(path: str | Path, n_blocks: int) -> list[dict[str, Any]]:
-    """Read the rows of a result file, with blocks from 1."""
+    """Read the rows of a result file; blocks are numbered from 1."""
     text = read_bytes(path).decode("utf-8-sig", errors="replace")
     separator = next((s for s in ";\t" if re.search(f"(?m)^[^#\n]*{s}", text)), ",")
     lines = {
@@ -118,9 +123,9 @@ def read_result(path: str | Path, n_blocks: int) -> list[dict[str, Any]]:
     for name in NEEDED:
         times = names.count(name)
         require(
-            times == 1, path, f"{name} must be once in the header, not {times} times"
+            times == 1, path, f"{name} must occur once in the header, not {times} times"
         )
-    require(bool(lines), path, "no transition stands below the header")
+    require(bool(lines), path, "there is no transition below the header")
     modes: dict[Any, Any] = dict.fromkeys(range(first, last + 1), 0)
     rows: list[dict[str, Any]] = []
     time = Decimal(0)
@@ -148,8 +153,8 @@ def read_result(path: str | Path, n_blocks: int) -> list[dict[str, Any]]:
 
 
 def check_units(path: str | Path, first: Mapping[str, Any], true: np.void) -> None:
-    """Refuse times or loads that are those of the first true transition in ms, min, kN
-    or the like."""
+    """Refuse a file whose first time or load has the right value in another unit, such
+    as ms, min or kN."""
     for name in ("time_s", "tangential_load_N"):
         ratio = float(first[name]) / true[name.removesuffix("_s").removesuffix("_N")]
         for factor in (1e-6, 1e-3, 1 / 60, 1e3, 1e6):
@@ -158,7 +163,7 @@ def check_units(path: str | Path, first: Mapping[str, Any], true: np.void) -> No
 
 
 def decimal(where: str, text: str) -> Decimal:
-    """Return a number as it is written, with a decimal point or comma."""
+    """Read a number exactly, with a decimal point or comma."""
     try:
         number = Decimal(text.replace(",", ".").replace("_", "?"))
     except InvalidOperation:
@@ -169,6 +174,6 @@ def decimal(where: str, text: str) -> Decimal:
 
 
 def require(holds: bool, where: object, otherwise: str) -> None:
-    """Raise a ValueError unless something holds."""
+    """Raise a ValueError unless a condition holds."""
     if not holds:
         raise ValueError(f"{where}: {otherwise}")

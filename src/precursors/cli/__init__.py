@@ -1,7 +1,6 @@
 """The command `precursors`: simulate, slips, plot, audit, score.
 
-What a command needs is imported when it runs, so that `precursors --help` answers at
-once.
+The modules of a command are imported when it runs, so that `precursors --help` is fast.
 """
 
 import os
@@ -22,8 +21,7 @@ ENDINGS = {"plot": (".png", ".svg", ".pdf", ".eps"), "slips": (".csv", ".tsv")}
 
 
 class Refused(Exception):
-    """The user asked for something that does not hold, or was not reached: each
-    argument is a line."""
+    """A check failed, or a limit was reached; each argument is one line for the user."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -31,7 +29,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     error."""
     # Starting threads costs more than any matrix here.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    if isinstance(sys.stdout, TextIOWrapper):  # a terminal may not have all letters
+    if isinstance(sys.stdout, TextIOWrapper):  # a terminal may lack some characters
         sys.stdout.reconfigure(errors="backslashreplace")
     warnings.formatwarning = lambda message, *_: f"precursors: {message}\n"
     arguments = read_options(sys.argv[1:] if argv is None else argv)
@@ -46,7 +44,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         if sys.stdout:  # None where it was closed
             sys.stdout.flush()
         return DONE
-    except BrokenPipeError:  # the reader has enough, as in `precursors slips | head`
+    except BrokenPipeError:  # as in `precursors slips | head`
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return DONE
     except KeyboardInterrupt:
@@ -68,6 +66,6 @@ def main(argv: Sequence[str] | None = None) -> int:
             f"{error.filename}: {error.strerror}" if error.filename else str(error)
         ]
     for line in lines:
-        told = " ".join(line.split())
-        print(f"precursors {arguments.command}: {told}", file=sys.stderr)
+        message = " ".join(line.split())
+        print(f"precursors {arguments.command}: {message}", file=sys.stderr)
     return code

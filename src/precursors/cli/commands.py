@@ -1,4 +1,4 @@
-"""The commands: each takes its options, and prints or writes what was asked for."""
+"""The commands: each takes its options and prints or writes its result."""
 
 import json
 import logging
@@ -18,8 +18,8 @@ from precursors.cli.files import (
     given,
     how_to_read,
     measured_data,
+    note,
     several,
-    tell,
 )
 from precursors.cli.options import DATA, MEASURED, RUN, SLIDER_OPTIONS
 from precursors.model.chain import (
@@ -34,12 +34,12 @@ from precursors.support.checkout import built_state, git_state
 from precursors.support.files import write_table
 from precursors.support.measured import read_profile, read_weights
 
-# A run with more transitions up to the first global slip takes seconds to repeat.
+# Predicting the errors of a longer run would take seconds.
 MOST_REPEATED = 50_000
 
 
 def simulate(arguments: Namespace) -> None:
-    """Run a chain, and print a sentence and a summary."""
+    """Run a chain and print a summary, first in words and then in numbers."""
     from precursors.analysis.summary import summarise
 
     run = run_of_options(arguments)
@@ -57,11 +57,11 @@ def simulate(arguments: Namespace) -> None:
     show_values(values, arguments.json)
     if not arguments.json:
         print(f"\n{advice}")
-    tell_accuracy(run, numbers["global_slip_s"])
+    warn_of_limits(run, numbers["global_slip_s"])
 
 
 def run_in_words(run: Run, numbers: Mapping[Any, Any]) -> str:
-    """A sentence about a run, from its row of `summarise`."""
+    """Describe a run in words, from its row of `summarise`."""
     counted = several(numbers["events_counted"], "event")
     text = f"{counted} counted in Fig. 13, of {numbers['events_to_global_slip']} "
     if not numbers["reached"]:
@@ -76,7 +76,7 @@ def run_in_words(run: Run, numbers: Mapping[Any, Any]) -> str:
 
 
 def slips(arguments: Namespace) -> None:
-    """List the slip events of a run file, or of a chain that is run."""
+    """List the slip events of a run file, or of a chain given by options."""
     from precursors.analysis.slips import OF_SLIDER, slip_table
 
     run = run_of(arguments)
@@ -94,19 +94,18 @@ def slips(arguments: Namespace) -> None:
     elif table.empty:
         print("no slip event")
     else:
-        # What follows from other columns makes the table wide to read.
+        # These columns follow from the others and would make the table too wide.
         shown = table.drop(columns=[*OF_SLIDER, "largest_load_N", "front_length_m"])
         print(shown.to_string(index=False, na_rep="-", float_format="{:.7g}".format))
-    tell_accuracy(run, first_global_slip)
+    warn_of_limits(run, first_global_slip)
 
 
 def plot(arguments: Namespace) -> None:
-    """Draw a run: its load and slips over time, its front lengths against the load,
-    the push in its springs, or a wave."""
+    """Draw the figure of a run that the options choose."""
     from precursors.figures.run import Movie, plot
     from precursors.figures.style import Look, save
 
-    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # it tells of fonts
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)  # no notes about fonts
     look = Look(**given(arguments, ("width_mm", "font_size", "font")))
     how = given(arguments, ("figure", "title", "events"))
     unused = given(arguments, DATA)
@@ -118,7 +117,7 @@ def plot(arguments: Namespace) -> None:
     drawn: Any = plot(run, look=look, **how)
     if arguments.data is not None:
         for line in drawn.get_label().splitlines():
-            tell(line)
+            note(line)
     if isinstance(drawn, Movie):
         drawn.savefig(arguments.output)
     else:
@@ -127,7 +126,7 @@ def plot(arguments: Namespace) -> None:
 
 
 def audit(arguments: Namespace) -> None:
-    """Check that each run file is whole and its run a motion of the model."""
+    """Check that each run file is intact and its run is a motion of the model."""
     from precursors.audit import audit
 
     wrong: list[str] = []
@@ -144,7 +143,7 @@ def audit(arguments: Namespace) -> None:
                 f"{several(len(run.transitions), 'transition')} in {run.duration:g} s"
             )
             if not has_checksum(path):
-                tell(
+                note(
                     f"{path} has no checksum, as it is older: the length of its contact is not checked"
                 )
         else:
@@ -165,7 +164,7 @@ def score(arguments: Namespace) -> None:
 
 
 def score_in_words(values: Mapping[str, Any]) -> str:
-    """A sentence about a score."""
+    """Describe a score in words."""
     text = (
         f"{values['problem']}: {values['transitions_right']} of "
         f"{values['transitions_true']} transitions right"
@@ -203,7 +202,7 @@ def version(_: Namespace) -> None:
 
 
 def run_of(arguments: Namespace) -> Record:
-    """Read the run file, or run the chain of the options."""
+    """Read the run file, or run the chain given by the options."""
     if arguments.file is None:
         return run_of_options(arguments)
     check_choices(arguments)
@@ -218,21 +217,21 @@ def run_of(arguments: Namespace) -> Record:
 
 
 def run_of_options(arguments: Namespace) -> Run:
-    """Run the chain of the options."""
+    """Run the chain given by the options."""
     from numba.core import event
 
     from precursors.solver.simulate import TransitionLimitError, simulate
     from precursors.support.compiled import Announcement
 
     check_choices(arguments)
-    event.register("numba:compile", Announcement())  # the first run takes long
+    event.register("numba:compile", Announcement())  # compiling delays the first run
     slider = given(arguments, SLIDER_OPTIONS)
     measured = given(arguments, MEASURED)
     chain = _chain(arguments, slider, **measured)
     if measured:
         source = next(iter(measured.values()))
         loads = chain.weights
-        tell(
+        note(
             f"{source}: {several(chain.n_blocks, 'block')}, {loads.min():g} to {loads.max():g} N, "
             f"F_Z = {chain.normal_load:g} N"
         )
@@ -253,7 +252,7 @@ def _chain(
     load_cells: Sequence[float] | None = None,
     cell_spacing: float | None = None,
 ) -> Chain:
-    """The chain of a slider, whose loads may be measured."""
+    """Make the chain of a slider, with measured normal loads if they are given."""
     if load_cells is not None:
         a, b = load_cells
         length = slider.get("length", SLIDER["length"])
@@ -271,28 +270,28 @@ def _chain(
     return Chain.from_slider(**slider)
 
 
-def tell_accuracy(run: Record, first_global_slip: float) -> None:
-    """Say if a light block decides what events are, or if roundings decide the first
+def warn_of_limits(run: Record, first_global_slip: float) -> None:
+    """Warn if a light block changes the slip events, or if rounding decides the first
     global slip [s]."""
     from precursors.analysis.horizon import predicted_errors
     from precursors.analysis.slips import describe_light_blocks
 
     if words := describe_light_blocks(run):
-        tell(words)
+        note(words)
     until = run.transitions[run.transitions["time"] <= first_global_slip]
     if not isinstance(run, Run) or not 0 < len(until) <= MOST_REPEATED:
         return
     up_to_slip = replace(run, duration=first_global_slip, transitions=until)
     known = predicted_errors(up_to_slip).order_known_until
     if known < first_global_slip:
-        tell(
+        note(
             f"the first global slip at {first_global_slip:.3f} s is beyond predictability: roundings "
             f"decide from {known:.3f} s on"
         )
 
 
 def show_values(values: Mapping[str, Any], as_json: bool) -> None:
-    """Print named values, one a line, ten digits a number; JSON has null for NaN."""
+    """Print one named value per line with ten digits, or JSON, where NaN is null."""
     values = {name: None if x != x else x for name, x in values.items()}  # NaN
     if as_json:
         print(json.dumps(values, indent=1))

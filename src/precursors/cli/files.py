@@ -1,4 +1,4 @@
-"""Measured files of the command line: how each is read, and what is said of it."""
+"""Measured files on the command line: how to read them, and notes about them."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ from precursors.support.measured import LENGTH, LOAD, TIME, Quantity
 if TYPE_CHECKING:
     from precursors.figures.style import Measured
 
-# What columns are chosen for, in files of each option.
+# Symbols for which --columns may choose a column, by the option of the file.
 KEYS = {"data": ("t", "F_X", "L_p/L"), "weights": ("w",), "profile": ("x", "p")}
-# Of measured times in a run, of measured loads and its own.
+# Smallest share of measured times within a run, and smallest ratio of measured and
+# simulated loads, that raise no doubt.
 LEAST_OVERLAP = 0.1
 
 
 def measured_data(arguments: Namespace, run: Record) -> list[Measured]:
-    """What is measured in each file; lines say what it is, and if it may be something
-    else."""
+    """Read the measured files, and print a note on what each contains."""
     from precursors.figures.run import axes_of, read_measured
 
     x, *_ = axes_of(arguments.figure)
@@ -45,16 +45,18 @@ def measured_data(arguments: Namespace, run: Record) -> list[Measured]:
             y = LENGTH if each.are_lengths else LOAD
             columns = dict(zip((x, y), each.points.T, strict=True))
             ranges = (f"{q} {x.min():g} to {x.max():g}" for q, x in columns.items())
-            tell(f"{path}: {several(len(each.points), 'point')}, {', '.join(ranges)}")
-            tell_doubts(path, columns, run)
+            note(f"{path}: {several(len(each.points), 'point')}, {', '.join(ranges)}")
+            warn_of_mismatch(path, columns, run)
             is_alone = names.count(each.name) == 1
             measured.append(each if is_alone else replace(each, name=path))
     return measured
 
 
-def tell_doubts(path: str, data: Mapping[Quantity, FloatArray], run: Record) -> None:
-    """Say if measured values hardly overlap a run, as in other units, or if all loads
-    are below zero."""
+def warn_of_mismatch(
+    path: str, data: Mapping[Quantity, FloatArray], run: Record
+) -> None:
+    """Warn if measured values hardly overlap the run, as in wrong units, or if all loads
+    are negative."""
     from precursors.analysis.slips import slip_table
 
     times = data.get(TIME, np.zeros(1))
@@ -67,16 +69,16 @@ def tell_doubts(path: str, data: Mapping[Quantity, FloatArray], run: Record) -> 
         if reach <= LEAST_OVERLAP or reach >= 1 / LEAST_OVERLAP:
             apart.append(f"it reaches {reach:.2g} times as high as F_X of the run")
     if apart:
-        tell(
+        note(
             f"{path} hardly overlaps the run: {', and '.join(apart)} (--data-start says "
             "when the run begins, --columns the units)"
         )
     if LOAD in data and data[LOAD].max() < 0:
-        tell(f"{path}: all of F_X is below zero: is its sign turned?")
+        note(f"{path}: all of F_X is below zero: is its sign turned?")
 
 
 def check_choices(arguments: Namespace) -> None:
-    """Refuse a choice of columns or a line of names of a file that is not given."""
+    """Refuse --columns and --header-line for a file that is not given."""
     files = [option for option in KEYS if getattr(arguments, option, None) is not None]
     for choice in arguments.columns or []:
         for option, keys in KEYS.items():
@@ -87,8 +89,11 @@ def check_choices(arguments: Namespace) -> None:
 
 
 def how_to_read(arguments: Namespace, option: str, place: int = 0) -> dict[str, Any]:
-    """Choice of columns and line of names for a file of an option, the files being
-    normal loads first, then the data in their order."""
+    """Return the chosen columns and the header line for one file of an option.
+
+    `place` is its place among the files of the option. The file of normal loads comes
+    before those of --data.
+    """
     data = getattr(arguments, "data", None) or []
     loads = given(arguments, ("weights", "profile"))
     n = len(loads) + len(data)
@@ -101,7 +106,7 @@ def how_to_read(arguments: Namespace, option: str, place: int = 0) -> dict[str, 
 
 
 def of_file(option: str, values: Sequence[Any] | None, place: int, number: int) -> Any:
-    """The value of an option for one of some files, which is given once for all of them
+    """Return the value of an option for one file; the option is given once for all files
     or once for each."""
     if values and len(values) not in (1, number):
         raise ValueError(
@@ -112,16 +117,16 @@ def of_file(option: str, values: Sequence[Any] | None, place: int, number: int) 
 
 
 def given(arguments: Namespace, names: Iterable[str]) -> dict[str, Any]:
-    """Options that were given, of those named."""
+    """Return those of the named options that the user has given."""
     values = {name: getattr(arguments, name) for name in names}
     return {name: value for name, value in values.items() if value is not None}
 
 
 def several(number: int, noun: str) -> str:
-    """A number of things, in words."""
+    """Return a number with its noun, such as "2 blocks"."""
     return f"{number} {noun}{'' if number == 1 else 's'}"
 
 
-def tell(line: str) -> None:
-    """Say something beside the result."""
+def note(line: str) -> None:
+    """Print a note for the user on standard error."""
     print(line, file=sys.stderr)

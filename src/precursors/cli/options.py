@@ -14,25 +14,25 @@ examples:
   precursors simulate --theta 5/6 --output run.h5     10 s of the paper's chain, summarised and saved
   precursors slips run.h5 --counted                   the events counted in Fig. 13
   precursors plot --weights loads.csv --width 85 --font-size 9 --output fig.pdf
-  precursors audit results/runs/*.h5                  is each run a motion of the model?
+  precursors audit results/runs/*.h5                  does each run obey the equations of the model?
   precursors score mine.csv --problem uniform         how many of its transitions are right?
 
 exit codes:
   0    done
-  1    a run file is damaged, a run does not hold, or a run reached its limit of transitions
+  1    a run file is damaged, a run fails the audit, or it reached its limit of transitions
   2    an option is wrong, or a value is out of range
   3    a file cannot be read or written
-  4    a package that this needs is not installed
+  4    a required package is not installed
   130  interrupted (Ctrl-C)"""
 
-# Usage and meaning.
+# Usage and meaning of each command.
 COMMANDS = {
     "simulate": ("[options]", "run a chain and summarise it"),
     "slips": ("[RUN.h5] [options]", "list the slip events of a run"),
     "plot": ("[RUN.h5] [options]", "draw a run"),
     "audit": (
         "RUN.h5 ...",
-        "check that runs are motions of the model, without the solver's code",
+        "check that runs obey the equations of the model, independently of the solver",
     ),
     "score": (
         "MINE.csv --problem NAME [options]",
@@ -52,14 +52,14 @@ CHAIN = {
     "length": "length L of the contact [m]",
 }
 RUN = ("duration", "until", "max_transitions")
-# Of measured loads, and of measured values drawn over a run.
+# Options of measured normal loads, and of measured data to draw with a run.
 MEASURED = ("weights", "profile", "load_cells", "cell_spacing")
 DATA = {
     "sample_rate": "samples per second [Hz] of a file without times",
     "data_start": "time in the file at which the run starts [s] (0)",
     "data_offset": "F_X in the file at no load [N] (0)",
 }
-# Keys of a choice of columns, and the symbols of `precursors.support.measured`.
+# Keys of --columns, and the symbols of `precursors.support.measured`.
 COLUMNS = {
     "t": "t",
     "F_X": "F_X",
@@ -73,7 +73,7 @@ SLIDER_OPTIONS = ("theta", "n_blocks", *CHAIN)
 
 
 class Parser(argparse.ArgumentParser):
-    """An argument parser that says in one line what is wrong."""
+    """An argument parser whose errors are one line."""
 
     def error(self, message: str) -> NoReturn:
         """Exit with one line on standard error."""
@@ -100,9 +100,9 @@ def read_options(argv: Sequence[str]) -> argparse.Namespace:
             description=f"{meaning.capitalize()}.",
             usage=f"precursors {name} {usage}",
         )
-        if name in argv:  # the defaults of the others are not read
+        if name in argv:  # not those of the others: they load the model
             add_options(command, name)
-    # argparse takes -5/6 for an option, and " -5/6" for a value.
+    # argparse reads -5/6 as an option, but " -5/6" as a value.
     values = [re.sub(r"^-(?=[\d.])", " -", argument) for argument in argv]
     arguments = top.parse_args(values)
     if arguments.command == "plot" and arguments.output is None:
@@ -127,20 +127,20 @@ def add_options(command: Parser, name: str) -> None:
             "file",
             type=Path,
             metavar="MINE.csv",
-            help="transitions as docs/benchmark.md asks for them",
+            help="transitions in the format of docs/benchmark.md",
         )
         add(
             "--problem",
             required=True,
-            help="which of its problems they solve, for example uniform; any other word "
-            "lists them",
+            help="problem that the file solves, for example uniform; an unknown name lists "
+            "them all",
         )
         add(
             "--ties",
             type=_number,
             default=0.0,
             metavar="S",
-            help="rows no farther apart may stand in any order [s] (0)",
+            help="rows may be in any order if their times differ by at most this [s] (0)",
         )
     elif name == "simulate":
         add("--output", help="save the run (HDF5)", type=Path)
@@ -150,11 +150,11 @@ def add_options(command: Parser, name: str) -> None:
             nargs="?",
             type=Path,
             metavar="RUN.h5",
-            help="a run file; else the options of a chain",
+            help="a run file; without it, the chain given by the options is run",
         )
     if name == "slips":
         add("--counted", action="store_true", help="only the events counted in Fig. 13")
-        add("--output", help="write every digit of it (CSV or TSV)", type=Path)
+        add("--output", help="save the table with all digits (CSV or TSV)", type=Path)
         add(
             "--decimal-comma",
             dest="decimal",
@@ -166,7 +166,7 @@ def add_options(command: Parser, name: str) -> None:
     elif name == "plot":
         add(
             "--output",
-            help="PNG, SVG, PDF or EPS (precursors.png; precursors.svg of a wave)",
+            help="PNG, SVG, PDF or EPS file (precursors.png, or precursors.svg for a wave)",
             type=Path,
         )
         _add_look(command)
@@ -190,39 +190,46 @@ def _add_chain(command: Parser) -> None:
     )
     add_one(
         "--weights",
-        help="file of normal loads [N]; replaces --blocks and --normal-load, too",
+        help="file with one normal load [N] per block; replaces --theta, --blocks and "
+        "--normal-load",
     )
     add_one(
         "--profile",
-        help="file with the shape of the normal load: a pressure at positions from the "
-        "drive on, or in equal cells",
+        help="file with the pressure along the contact, at positions from the drive end or "
+        "in equal cells",
     )
     add_one(
         "--load-cells",
         nargs=2,
         type=_number,
         metavar=("A", "B"),
-        help="readings [N], A at the drive; --normal-load is their sum",
+        help="two load-cell readings [N], A at the drive end; the default of --normal-load "
+        "is their sum",
     )
     add(
         "--columns",
         type=_choice,
         action="append",
         metavar="CHOICE",
-        help='names or numbers of columns, and units: of --data "t=Zeit [ms],F_X=Kraft [kN]" '
-        'or "L_p/L=3 [mm]", of --weights "w=2 [N]", of --profile "x=Ort [mm],p=Druck [MPa]"',
+        help="columns to read, by name or number, and their units: for --data "
+        '"t=Zeit [ms],F_X=Kraft [kN]" or "L_p/L=3 [mm]", for --weights "w=2 [N]", for '
+        '--profile "x=Ort [mm],p=Druck [MPa]"',
     )
     add(
         "--header-line",
         type=_whole,
         action="append",
         metavar="N",
-        help="line of a table that has the names of its columns, from 1",
+        help="number of the line with the column names, from 1",
     )
-    add("--cell-spacing", type=_number, help=f"between them [m] ({CELL_SPACING:g})")
+    add(
+        "--cell-spacing",
+        type=_number,
+        help=f"distance between the load cells [m] ({CELL_SPACING:g})",
+    )
     _add_numbers(add, {name: f"{CHAIN[name]} ({SLIDER[name]:g})" for name in CHAIN})
     add = command.add_argument_group(
-        "the run", "from rest, with every spring at its natural length"
+        "the run", "starts from rest, with every spring at its natural length"
     ).add_argument
     add("--duration", help="time to run [s] (10)", type=_number)
     add(
@@ -232,7 +239,7 @@ def _add_chain(command: Parser) -> None:
         const="global slip",
         help="stop at the end of the first global slip",
     )
-    add("--max-transitions", type=_whole, help="limit of transitions")
+    add("--max-transitions", type=_whole, help="largest number of transitions")
 
 
 def _add_look(command: Parser) -> None:
@@ -242,23 +249,24 @@ def _add_look(command: Parser) -> None:
         "--figure",
         choices=["load", "curve", "lengths", "push", "wave"],
         default="load",
-        help="load over time as in Fig. 10 (default), its curve alone, lengths as in "
-        "Fig. 13; of two "
-        "precursors and the global slip: the push in the springs, or a wave, in slow "
-        "motion (SVG)",
+        help="load: load and slips over time as in Fig. 10 (default); curve: the load alone; "
+        "lengths: front lengths as in Fig. 13; push: the spring forces before and after "
+        "two precursors and the global slip; wave: these three events in slow motion "
+        "(SVG)",
     )
     add(
         "--events",
         type=_whole,
         nargs="+",
         metavar="N",
-        help="slip events whose push is drawn instead, from 1",
+        help="numbers of the slip events that --figure push shows instead, from 1",
     )
     add(
         "--data",
         action="append",
-        help="measured t [s] and F_X [N], or t and L_p [mm], or F_X and L_p/L, drawn over "
-        "it; may be given again, and its options once for all or once for each",
+        help="file of measured t [s] and F_X [N], or t and L_p [mm], or F_X and L_p/L, to "
+        "draw as well; may be repeated, with its options once for all files or once for "
+        "each",
     )
     _add_numbers(add, DATA, action="append")
     add(
@@ -275,13 +283,13 @@ def _add_look(command: Parser) -> None:
 def _add_numbers(
     add: Callable[..., Any], meanings: Mapping[str, str], **how: Any
 ) -> None:
-    """Add options that take a number, by their names."""
+    """Add an option that takes a number for each name."""
     for name, meaning in meanings.items():
         add(f"--{name.replace('_', '-')}", help=meaning, type=_number, **how)
 
 
 def _choice(text: str) -> dict[str, str]:
-    """Read columns by the symbols of what they are."""
+    """Read the columns chosen for each symbol."""
     begin, *parts = re.split(r"(?:^|,)\s*([^\s,=]+)\s*=", text)
     chosen = {
         COLUMNS.get(key, key): name.strip()
@@ -308,7 +316,7 @@ def _whole(text: str) -> int:
 def _number(text: str) -> float:
     """Read a number, or a fraction such as 5/6."""
     try:
-        # Not Fraction("1e999999999"), which writes all digits.
+        # Fraction("1e999999999") would write out all its digits.
         value = float(Fraction(text) if "/" in text else text)
         if math.isfinite(value) and "_" not in text:
             return value

@@ -1,1 +1,1 @@
-"""Figures of a run, drawn from its tables."""
+"""Draw figures of a run from its tables."""

@@ -15,8 +15,8 @@ from precursors.figures.style import Measured, Options
 from precursors.model.chain import FloatArray
 
 HEIGHT_MM = 80.0
-LEGEND_MM = 8.0  # of an entry of the key, where one stands below the panel
-# Scenes that have no names in place have different outlines.
+LEGEND_MM = 8.0  # height of an entry of a key below the panel
+# Scenes without names along their curves have different outlines.
 OUTLINES = "osD^vh"
 # Sizes differ, so that marks stay visible around each other.
 SIZES = {-1: 4.2, 0: 5.2, 1: 6.6}
@@ -37,21 +37,21 @@ MEASURED: Options = {
     "zorder": 2.5,
 }
 MARKERS = "+x^s"  # of measured points
-# What a curve is: at which of its events the name stands, from which side, and how far
-# away [pt].
+# Name of a curve, share of its events at which the name is placed, alignment, and
+# offset [pt].
 NAMES: dict[int, tuple[str, float, str, tuple[float, float]]] = {
     -1: ("more load at the\ntrailing edge: {}", 0.0, "left", (28.0, -2.0)),
     0: ("uniform load:\n{} events", 0.0, "left", (-8.0, -4.0)),
     1: ("more load at\nthe leading\nedge: {}", 0.65, "right", (-18.0, 16.0)),
 }
-# F_X/F_Z stands right of the first global slip, in lines that keep the scenes apart.
+# F_X/F_Z is written right of the first global slip, on one line per scene.
 LINE_PT = 9.0
-END_ROOM = 1.22  # of the axis of F_X, in times of the largest load
-# Shares of the largest load that keep the first two names apart, and that the third
-# needs to its left.
+END_ROOM = 1.22  # length of the axis of F_X, as a multiple of the largest load
+# Shares of the largest load: smallest distance of the first two names, and the room
+# that the third needs to its left.
 APART = 0.1
 ROOM = 0.28
-FEW = 12  # blocks at most, whose first event is far enough from the corner
+FEW = 12  # with more blocks the first event is too close to the corner
 
 
 def draw(
@@ -63,9 +63,9 @@ def draw(
 ) -> Figure:
     """Draw L_p/L against F_X at the onset, up to and including the first global slip.
 
-    `data` are measured lengths L_p/L over the load at the onset [N]. Scenes without a
-    slip event are left out. `weights` [N] are the normal loads of the blocks
-    if theta does not say them.
+    `data` are measured lengths L_p/L against the load at the onset [N]. Scenes without
+    a slip event are left out. `weights` [N] are the normal loads of the blocks; by
+    default they follow from theta.
 
     Raises
     ------
@@ -96,12 +96,12 @@ def draw_lengths(
     weights: ArrayLike | None = None,
     in_place: bool = True,
 ) -> None:
-    """Draw the events of Fig. 13 into a panel, with names along the curves and F_X/F_Z
-    at their ends, or with entries of a key.
+    """Draw the events of Fig. 13 in a panel: with names along the curves and F_X/F_Z at
+    their ends if `in_place`, otherwise with entries for a key.
 
-    Solid circles are theta < 0, circles with a dot theta = 0, and open circles theta >
-    0. Small crosses are the short events, which Fig. 13 does not count. Dashed is the
-    load at which kinetic friction carries all of the push up to a length.
+    Solid circles mean theta < 0, circles with a dot theta = 0, and open circles theta >
+    0. Small crosses are the short events, which Fig. 13 does not count. The dashed line
+    is the load that kinetic friction carries up to each length.
     """
     slips = [table for table in slips if len(table)]
     outlines = "o" * len(slips) if in_place else cycle(OUTLINES)
@@ -111,7 +111,7 @@ def draw_lengths(
         axes.plot(load, length, **CARRIED, color=style.theta_color(_sign(table)))
         if in_place:
             _name(axes, table[table["counted"]])
-    # Measured loads, which are drawn before, may be below zero.
+    # Measured loads may be negative.
     right = END_ROOM * axes.dataLim.x1 if in_place else None
     axes.set(xlim=(min(0.0, axes.dataLim.x0), right), ylim=(-0.09, 1.08))
     if slips:
@@ -130,8 +130,8 @@ def draw_lengths(
 def friction_carried(
     slider: pd.Series, weights: ArrayLike | None = None
 ) -> tuple[FloatArray, FloatArray]:
-    """Lengths L_p/L, and F_X = mu_k W(L_p) [N], the kinetic friction of the blocks up
-    to there: their weights [N], or those of theta (Eq. 7)."""
+    """Return lengths L_p/L and the kinetic friction F_X = mu_k W(L_p) [N] of the blocks
+    up to each; without `weights` [N] the loads follow from theta (Eq. 7)."""
     n_blocks = int(slider["n_blocks"])
     n = np.arange(n_blocks + 1)
     if weights is not None:
@@ -143,8 +143,8 @@ def friction_carried(
 
 
 def _add_coefficient(axes: Axes, slips: pd.DataFrame) -> None:
-    """Write F_X/F_Z at the top, and mark mu_k F_Z, where all scenes have one F_Z and
-    one mu_k."""
+    """Add an axis of F_X/F_Z and mark mu_k F_Z, if all scenes have the same F_Z and
+    mu_k."""
     sliders = slips[["normal_load_N", "mu_k"]].drop_duplicates()
     if len(sliders) == 1:
         ((load, mu_k),) = sliders.to_numpy()
@@ -163,8 +163,8 @@ def _add_coefficient(axes: Axes, slips: pd.DataFrame) -> None:
 
 
 def _beside(slips: Sequence[pd.DataFrame], data: Measured) -> str:
-    """The name of measured lengths; of one scene also how far they are from the lines
-    between the events of Fig. 13."""
+    """Return the name of measured lengths; for a single scene, also their distance from
+    the curve through the events of Fig. 13."""
     if len(slips) != 1:
         return data.label
     counted = slips[0][slips[0]["counted"]].sort_values("load_before_N")
@@ -179,8 +179,8 @@ def _sign(table: pd.DataFrame) -> int:
 
 
 def _are_named_in_place(slips: Sequence[pd.DataFrame]) -> bool:
-    """Whether each scene has a theta, alone of its sign, a curve and a global slip, and
-    its name has room."""
+    """Whether every curve can be named in place: each scene has a theta of its own sign,
+    at least four events and a global slip, and the names have room."""
     at = {}
     for table in slips:
         counted = table[table["counted"]]
@@ -219,7 +219,7 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, outline: str, in_place: bool) 
         markeredgewidth=0.8,
         linewidth=0.5,
         label="_" if in_place else _label(slips),
-        # The smallest marks in front, so that all are seen where they coincide.
+        # Smaller marks are in front, so that coinciding ones stay visible.
         zorder=2 - 0.1 * sign,
     )
     if sign == 0:
@@ -227,7 +227,7 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, outline: str, in_place: bool) 
 
 
 def _name(axes: Axes, counted: pd.DataFrame) -> None:
-    """Write along a curve what it is, with its number of events, and F_X/F_Z at its
+    """Write the name of a curve and its number of events beside it, and F_X/F_Z at its
     end."""
     sign = _sign(counted)
     look: Options = {"textcoords": "offset points", "color": style.theta_color(sign)}
@@ -250,7 +250,7 @@ def _name(axes: Axes, counted: pd.DataFrame) -> None:
 
 
 def _label(slips: pd.DataFrame) -> str:
-    """The scene, and the number of its events."""
+    """Return the name of a scene with its number of events."""
     first = slips.iloc[0]
     name = style.theta_text(first["theta"])
     slider = f"$N = {first['n_blocks']}$, $F_Z = {first['normal_load_N']:g}$ N"

@@ -1,4 +1,5 @@
-"""The push along the row: what a slip adds and releases, and how far it can reach."""
+"""The push (spring force) along the row: what a slip adds and releases, and how far
+it can reach."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -23,14 +24,14 @@ LEFT: Options = {
     "linewidth": 1.0,
     "label": "what kinetic friction leaves of $F_X$",
 }
-# The row below a panel, in units of the panel; and in it, in lengths of the row, the
-# place of the drive and both ends.
+# Position of the row of blocks below a panel, in units of the panel. Places of the
+# drive and of both ends are in lengths of the row.
 ROW = (0.0, -0.16, 1.0, 0.13)
 DRIVE = -0.1
 ENDS = (-0.14, 1.1)
-SIDE = 0.84  # of a block, in units of its part of the row
-NUMBERED = 12  # blocks at most that have their numbers in them
-APART = 40  # blocks at most that are drawn one by one
+SIDE = 0.84  # of a block, as a share of the distance between blocks
+NUMBERED = 12  # with more blocks, their numbers are omitted
+APART = 40  # with more blocks, they are drawn without gaps
 
 
 def draw(
@@ -40,12 +41,11 @@ def draw(
     title: str | None = None,
     look: style.Look = style.LOOK,
 ) -> Figure:
-    """Draw the push in each spring before and after some events, a panel for each, and
-    what kinetic friction leaves of the load at the onset, F_X - mu_k W(x). `run` is a
-    `Run`.
+    """Draw the push in each spring before and after some events, one panel per event.
 
-    `events` are numbers of rows of the slip table, from 1; by default a precursor, the
-    longest one and the first global slip.
+    A dashed line shows what kinetic friction leaves of the load at the onset, F_X -
+    mu_k W(x). `run` is a `Run`. `events` are numbers of rows of the slip table, from 1;
+    by default a precursor, the longest one and the first global slip.
 
     Raises
     ------
@@ -89,7 +89,8 @@ def _chosen(slips: pd.DataFrame, events: Sequence[int]) -> pd.DataFrame:
 
 
 def _draw_event(axes: Axes, run: Any, event: Any) -> float:
-    """Draw an event; return how many blocks it goes beyond where its push is used up."""
+    """Draw an event; return by how many blocks it passes the point at which its push is
+    used up."""
     n, load = event.n_blocks, event.load_before_N
     color = style.GLOBAL if event.is_global else style.PARTIAL
     added: Options = {
@@ -98,7 +99,7 @@ def _draw_event(axes: Axes, run: Any, event: Any) -> float:
     }
     edges = np.linspace(0, 1, n + 1)
     middles = (edges[1:] + edges[:-1]) / 2
-    # Each spring reaches from the middle of a block to that of the next.
+    # Each spring reaches from the middle of one block to the middle of the next.
     springs = np.append(0.0, middles)
     before, after = run.spring_forces([event.onset_s, event.end_s])
     for top, fill in ((after, added), (before, RELEASED)):
@@ -122,8 +123,8 @@ def _draw_event(axes: Axes, run: Any, event: Any) -> float:
 
 
 def _reason(run: Any, event: Any, beyond: float, left: float, after: FloatArray) -> str:
-    """Where the slip stops and why, in two lines; `left` is the load that is left after
-    the last block [N], and `after` the push in each spring [N]."""
+    """Describe where and why the slip stops, in two lines; `left` [N] is the load left
+    after the last block, and `after` [N] the push in each spring."""
     if event.is_global:
         push = f"{left:.2g} N of the push are not" if left > 0 else "the push is"
         return f"Global slip: the row goes,\n{push} used up"
@@ -143,7 +144,7 @@ def _reason(run: Any, event: Any, beyond: float, left: float, after: FloatArray)
 
 
 def _draw_row(axes: Axes, middles: FloatArray, front: int, color: str) -> None:
-    """Draw the blocks that slid in colour, and the drive."""
+    """Draw the drive and the blocks; those that slid are coloured."""
     n = len(middles)
     row = axes.inset_axes(ROW, sharex=axes)
     row.set_axis_off()

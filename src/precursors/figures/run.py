@@ -1,5 +1,5 @@
-"""The figure of a run in one line: its tables are made here, and drawn as those of the
-workflow."""
+"""Draw any figure of a run with one call: compute its tables and pass them to the
+module of the figure."""
 
 from __future__ import annotations
 
@@ -24,7 +24,8 @@ from precursors.support.files import AnyPath
 from precursors.support.measured import LENGTH, LOAD, TIME, Quantity, read_series
 
 Table = AnyPath | pd.DataFrame
-# What is measured for each figure: what lies along its axis, and what over it.
+# Quantities that may be measured for each figure: on the horizontal axis, then on the
+# vertical one.
 AXES: dict[str, tuple[Quantity, ...]] = {
     "load": (TIME, LOAD, LENGTH),
     "curve": (TIME, LOAD),
@@ -53,25 +54,28 @@ def plot(
     look: Look | Mapping[str, Any] = LOOK,
     events: Sequence[int] = (),
 ) -> Figure | Movie:
-    """Draw a run: its load and slips over time, its front lengths against the load, or
-    two precursors and the first global slip: the push in the springs, or a movie.
+    """Draw a run.
+
+    The figure shows the load and slips over time, the front lengths against the load,
+    or two precursors and the first global slip (the push in the springs, or a movie).
 
     Parameters
     ----------
     run : Run
-        The run; of a `Record`, only the lengths are drawn.
+        The run; a `Record` is enough for the lengths.
     figure : "load", "curve", "lengths", "push" or "wave"
-        As Figs. 10-12, their load alone, as Fig. 13, what springs carry, or an animated
+        As Figs. 10-12, their load alone, as Fig. 13, the spring forces, or an animated
         SVG, which takes no other parameter.
     data : array, shape (n, 2), DataFrame or path of a table, or a list, optional
-        Measured t [s] and F_X [N], or F_X [N] and L_p/L, which are drawn over it, with
-        their distance. Tables of a load may also have L_p over t; a list has tables.
+        Measured t [s] and F_X [N], or F_X [N] and L_p/L, to draw as well; the key has
+        their distance from the run. For "load", a table may also have L_p over t. A
+        list has tables.
     title : str, optional
-        By default the number of blocks, or nothing above lengths.
+        By default the number of blocks; none for lengths.
     look : Look or dict, optional
         `width_mm`, `font_size` [pt] and `font`.
     events : sequence of int, optional
-        Numbers of the slip events that a push shows instead, from 1.
+        Numbers of the slip events that "push" shows instead, from 1.
 
     Returns
     -------
@@ -81,8 +85,8 @@ def plot(
     Raises
     ------
     ValueError
-        If there is no such figure or event, if it needs a `Run`, or if a push or a wave
-        is asked with data, or a wave with anything.
+        If there is no such figure or event, if the figure needs a `Run`, or if it does
+        not take one of the other arguments.
     """
     if figure not in AXES:
         raise ValueError(f"figure must be one of {', '.join(AXES)}, but is {figure!r}")
@@ -115,7 +119,7 @@ def plot(
 
 
 def axes_of(figure: str) -> tuple[Quantity, ...]:
-    """What is measured for a figure, see `AXES`."""
+    """Return the quantities that may be measured for a figure, see `AXES`."""
     if not AXES[figure]:
         raise ValueError(f"a {figure} takes no data")
     return AXES[figure]
@@ -130,8 +134,9 @@ def read_measured(
     data_offset: float | None = None,
     **how: Any,
 ) -> list[Measured]:
-    """Read what a table has for a figure of a run, from the start of the run on and
-    without the offset of F_X.
+    """Read the measured series of a table for a figure of a run.
+
+    Times are shifted to the start of the run, and the offset of F_X is subtracted.
 
     Parameters
     ----------
@@ -162,7 +167,7 @@ def read_measured(
 
 
 def _measured(data: Any, figure: str, run: Record) -> list[Measured]:
-    """Measured points of a table, of a list of tables, or in an array."""
+    """Read measured points from a table, a list of tables, or an array."""
     axes_of(figure)
     kinds = (str, PathLike, pd.DataFrame, Measured)
     tables = [data] if isinstance(data, kinds) else data

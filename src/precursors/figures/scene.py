@@ -1,5 +1,5 @@
-"""Figs. 10-12, and any other scene: the tangential load over time, with a magnified view
-about the first global slip, and when and where blocks slipped."""
+"""Figs. 10-12 and similar scenes: the tangential load over time, magnified around the
+first global slip, and the slip events with their lengths."""
 
 from collections.abc import Sequence
 from itertools import cycle
@@ -16,12 +16,13 @@ from precursors.figures.style import Measured, Options
 HEIGHT_MM = 48.0
 CURVE_MM = 62.0  # of the load alone
 KEY_MM = 11.4
-MEASURED_MM = 9.0  # of an entry of the key for what was measured
-NARROW_MM = 150.0  # below this width the magnified view stands below, not beside
-ZOOM = (0.66, 1.03)  # the magnified view, in times of the first global slip
-KEY_WIDTH = 7.25  # of a column of the key, in mm per pt of the letters
+MEASURED_MM = 9.0  # height of an entry of the key for measured data
+NARROW_MM = 150.0  # in narrower figures the magnified view is below, not beside
+# The magnified view, as multiples of the time of the first global slip.
+ZOOM = (0.66, 1.03)
+KEY_WIDTH = 7.25  # of a column of the key, in mm per pt of font size
 
-# What an event is to the reader: its look, from those behind to those in front.
+# Kinds of events and their looks; later ones are drawn in front.
 KINDS: dict[str, Options] = {
     "partial slip": {"color": style.GREY, "linewidth": 0.6},
     "partial slip, counted in Fig. 13": {"color": style.PARTIAL, "linewidth": 1.8},
@@ -66,12 +67,12 @@ def draw(
     look: style.Look = style.LOOK,
     has_key: bool = True,
 ) -> Figure:
-    """Draw F_X(t) and all slip events, and F_X magnified about the first global slip,
+    """Draw F_X(t) and all slip events, and F_X magnified around the first global slip,
     with arrows at the events counted before it.
 
-    An event that goes on when the run ends is a band. The slip table may be empty; the
-    trace is straight between its rows. `data` are measured loads [N], or front lengths
-    [m], over time [s]. Of figures below each other one needs a key.
+    An event that is not over when the run ends is drawn as a band. The slip table may
+    be empty. The trace is linear between its rows. `data` are measured loads [N] or
+    front lengths [m] over time [s]. Among stacked figures, only one needs a key.
     """
     width_mm = look.width_mm or style.PAGE_MM
     slips = _with_kinds(slips)
@@ -82,7 +83,7 @@ def draw(
     height_mm = HEIGHT_MM * (1 + 1.2 * is_narrow) + MEASURED_MM * len(data)
     height_mm += KEY_MM * (1 + is_narrow) * has_key
     with style.page(width_mm, height_mm, look) as figure:
-        # Load, fronts, and the inset beside or below them.
+        # L is the load, F the fronts, I the magnified view.
         layout = "LI;FI"
         if not first_s > 0:
             layout = "L;F"
@@ -107,7 +108,7 @@ def draw(
                 panel.axvspan(*view, color=style.PALE, lw=0, zorder=0)
             _draw_inset(panels["I"], slips, trace, view)
             for each, line in zip(_loads(data), cycle(LINES), strict=False):
-                # Points beyond the inset would stretch its axis of F_X.
+                # Points outside the view would stretch its axis of F_X.
                 seen = each.points[_within(each.points[:, 0], view)]
                 panels["I"].plot(*seen.T, **MEASURED, linestyle=line)
         figure.align_ylabels()
@@ -140,7 +141,7 @@ def draw_curve(
 
 
 def _span(trace: pd.DataFrame, data: Sequence[Measured]) -> tuple[float, float]:
-    """The first and last time of a run and of what was measured, [s]."""
+    """Return the first and last time of the run and the measured data [s]."""
     times = np.concatenate(
         [[0.0], trace["time_s"], *(each.points[:, 0] for each in data)]
     )
@@ -150,7 +151,8 @@ def _span(trace: pd.DataFrame, data: Sequence[Measured]) -> tuple[float, float]:
 def _draw_measured_loads(
     axes: Axes, data: Sequence[Measured], trace: pd.DataFrame, first_s: float
 ) -> None:
-    """Draw measured loads; the figure gets lines of text that say how far they are."""
+    """Draw measured loads; the label of the figure states their distances from the
+    run."""
     curve = trace[LOAD].to_numpy()
     loads = _loads(data)
     labels = [each.beside(curve, first_s, "N") for each in loads]
@@ -174,7 +176,7 @@ def _draw_measured_lengths(axes: Axes, data: Sequence[Measured]) -> None:
 
 
 def _with_kinds(slips: pd.DataFrame) -> pd.DataFrame:
-    """Add what is drawn: the kind of each event, and the length that it reached."""
+    """Add the kind of each event and the length that it reached."""
     slips = slips.astype({"is_global": bool, "counted": bool})
     partial, counted, whole = KINDS
     share = slips["front"] / slips["n_blocks"]
@@ -189,8 +191,8 @@ def _with_kinds(slips: pd.DataFrame) -> pd.DataFrame:
 def _draw_load(
     axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame, end: float
 ) -> None:
-    """Draw F_X about mu_k F_Z."""
-    # One row more: the load goes on to the end of the panel.
+    """Draw F_X and the line mu_k F_Z."""
+    # One row more than in the panel, so that the line reaches its edge.
     seen = trace[trace["time_s"].shift(fill_value=0.0) <= end]
     axes.plot(*seen[LOAD].to_numpy().T, color=style.BLACK, linewidth=0.6)
     axes.set_ylabel("$F_X$ [N]")
@@ -220,7 +222,7 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame) -> None:
                 label="not over when the run ends",
             )
     edge = slips[slips["is_at_the_edge"]]
-    # It is in the key of every scene; an empty line that is not clipped upsets the layout.
+    # Every scene has it in the key. An empty line must be clipped, or the layout fails.
     points = edge[["onset_s", "reached_mm"]].to_numpy().T
     axes.plot(*points, **TO_THE_EDGE, clip_on=edge.empty)
     axes.set_ylim(0, 1.08 * style.MM_PER_M * slips["slider_length_m"].iloc[0])
@@ -229,8 +231,8 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame) -> None:
 def _draw_inset(
     axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame, view: tuple[float, float]
 ) -> None:
-    """Draw F_X about the first global slip, with the drops before it, and arrows at
-    those counted."""
+    """Draw F_X around the first global slip, with the load drop of each event and arrows
+    at the counted ones."""
     start, end = view
     at_ends = np.interp(view, *trace[LOAD].to_numpy().T)
     inside = trace[_within(trace["time_s"], view)]
@@ -238,7 +240,7 @@ def _draw_inset(
     _draw_load(axes, slips, pd.concat([ends[:1], inside, ends[1:]]), end)
     axes.margins(y=0.1)
     axes.set_xlim(start, end)
-    # A tick at the edge would make the panel of one scene narrower than that of another.
+    # A tick at the edge would make this panel narrower than those of other scenes.
     ticks = axes.get_xticks()
     axes.set_xticks(ticks[(ticks >= start) & (ticks < end - 0.02 * (end - start))])
     axes.set_title(MAGNIFIED, loc="left", pad=4, wrap=True)
@@ -254,12 +256,12 @@ def _draw_inset(
 
 
 def _within(times: Any, view: tuple[float, float]) -> Any:
-    """Which times are in the magnified view."""
+    """Whether each time is in the magnified view."""
     return (times >= view[0]) & (times <= view[1])
 
 
 def _title(slips: pd.DataFrame, title: str) -> str:
-    """The title, with theta and a word where there is no global slip."""
+    """Return the title with theta, and a note if there is no global slip."""
     parts = [style.plain(title)] if title else []
     parts += [style.theta_text(theta) for theta in slips["theta"][:1]]
     note = " (no global slip)" if len(slips) and not slips["is_global"].any() else ""

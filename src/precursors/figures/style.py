@@ -1,5 +1,4 @@
-"""The look of all figures: sizes, colours, words for numbers, the page, and the
-files."""
+"""The look of all figures: sizes, colours, labels, pages and files."""
 
 import re
 from collections.abc import Iterator, Sequence
@@ -24,11 +23,11 @@ from numpy.typing import NDArray
 
 from precursors.support.files import write_whole
 
-# Keyword arguments of a method of Matplotlib that draws.
+# Keyword arguments of a drawing method of Matplotlib.
 Options = dict[str, Any]
 
-# One colour, one meaning, in all figures and the page. Every two differ by more than 20
-# in CIELAB, for readers with protanopia or deuteranopia as well.
+# Each colour has one meaning in all figures and on the page. Any two differ by more than
+# 20 in CIELAB, also for readers with protanopia or deuteranopia.
 TRAILING = "#C27400"  # the three loadings: more load at the trailing edge,
 UNIFORM = "#158243"  # uniform load,
 LEADING = "#BB5EB5"  # more load at the leading edge
@@ -38,7 +37,7 @@ BACKWARD = "#374DC2"
 BLACK = "#000000"  # the exact solution
 MEASURED = "#6200FF"
 GREY = "#8C8C8C"  # everything else
-# Solvers of others, in the charts that compare solvers; each has its name beside it.
+# Other solvers, in charts that compare solvers; each has its name beside it.
 OTHERS = ("#4B1FA8", "#36B3D6", "#6B5200", "#BFA800", "#84294F")
 LOADINGS = {
     -1: "more load at the trailing edge",
@@ -53,11 +52,11 @@ COLUMN_MM = 85.0
 PAGE_MM = 178.0
 PNG_DPI = 300
 SCREEN_DPI = 120
-# Of a line of a key that has the name of a file, and of the name in it.
+# Lengths of a line of the key, and of a file name in it [letters].
 MOST_LETTERS = 45
 LEAST_LETTERS = 12
 LONGEST_NAME = 29
-TICKS = 0.9  # size of their labels, in those of the text: 7 pt is the least in print
+TICKS = 0.9  # font size of tick labels over that of the text; print needs 7 pt or more
 
 MU_SAPP_LABEL = r"$\mu_\mathrm{sapp}$ [-]"
 DOTTED: Options = {"color": GREY, "linewidth": 0.6, "linestyle": ":", "zorder": 1}
@@ -83,12 +82,12 @@ _SETTINGS: Options = {
     # Element ids of an SVG come from this salt instead of a random number.
     "svg.hashsalt": "precursors",
     "svg.fonttype": "none",  # text stays text
-    # TrueType, which programs that draw can edit; journals refuse the Type 3 that is
-    # the default.
+    # TrueType, which drawing programs can edit; journals refuse the default, Type 3.
     "pdf.fonttype": 42,
     "ps.fonttype": 42,
 }
-# Without the date and the release of Matplotlib, the same table gives the same bytes.
+# The date and the release of Matplotlib are left out, so that the same table always
+# gives the same bytes.
 _METADATA: dict[str, dict[str, str | None]] = {
     ".png": {"Software": None},
     ".svg": {"Date": None, "Creator": None},
@@ -99,14 +98,13 @@ _METADATA: dict[str, dict[str, str | None]] = {
 
 @dataclass(frozen=True)
 class Look:
-    """A journal's demands on a figure: its width [mm], None for the figure's own, and
-    its text.
+    """Requirements of a journal: width [mm] (None for the default of the figure), font
+    size [pt] and font.
 
     Raises
     ------
     ValueError
-        If the width or the size is none that can be drawn, or the font is not
-        installed.
+        If the width or the font size is out of range, or the font is not installed.
     """
 
     width_mm: float | None = None
@@ -129,7 +127,7 @@ class Look:
 
     @property
     def settings(self) -> Options:
-        """The settings of Matplotlib that follow."""
+        """The settings of Matplotlib for this look."""
         ticks = TICKS * self.font_size
         own = {"font.size": self.font_size, "font.sans-serif": self.font}
         return _SETTINGS | own | {"xtick.labelsize": ticks, "ytick.labelsize": ticks}
@@ -139,18 +137,18 @@ LOOK = Look()
 
 
 class Page(Figure):
-    """A figure that has its look wherever it is saved or shown, and that a notebook
-    shows."""
+    """A figure with the same look wherever it is saved or shown; a notebook displays
+    it."""
 
     look = LOOK
 
     def draw(self, renderer: Any) -> None:
-        """Draw it, without settings of the user's."""
+        """Draw the figure, ignoring the settings of the user."""
         with matplotlib.style.context(self.look.settings, after_reset=True):
             super().draw(renderer)
 
     def savefig(self, *args: Any, **options: Any) -> None:
-        """Write it, without settings of the user's."""
+        """Save the figure, ignoring the settings of the user."""
         with matplotlib.style.context(self.look.settings, after_reset=True):
             super().savefig(*args, **options)
 
@@ -162,11 +160,11 @@ class Page(Figure):
 
 @contextmanager
 def page(width_mm: float, height_mm: float, look: Look = LOOK) -> Iterator[Figure]:
-    """Make a figure of a given size on paper [mm], with room for its labels when the
-    block ends.
+    """Make a figure of a given size on paper [mm], and lay it out when the `with` block
+    ends.
 
-    The settings of a user's matplotlibrc have no effect. The layout is done once,
-    because a layout for each file would make the files differ slightly.
+    A user's matplotlibrc has no effect. The layout is computed once, because a new one
+    for each file would make the files differ slightly.
     """
     with matplotlib.style.context(look.settings, after_reset=True):
         size = ((look.width_mm or width_mm) / MM_PER_INCH, height_mm / MM_PER_INCH)
@@ -175,18 +173,18 @@ def page(width_mm: float, height_mm: float, look: Look = LOOK) -> Iterator[Figur
         yield figure
         ConstrainedLayoutEngine().execute(figure)
         for axes in figure.axes:
-            # The layout differs in the last bits from one run to the next, and ids of an
-            # SVG with them.
+            # The last bits of the layout, and ids of an SVG with them, differ between
+            # runs.
             axes.set_position(np.round(axes.get_position(original=True).bounds, 12))
 
 
 def save(
     figure: Figure, path: str | Path, look: Look = LOOK, title: str | None = None
 ) -> None:
-    """Write a figure as PNG (300 dpi), SVG, PDF or EPS, complete or not at all, always
-    the same bytes.
+    """Write a figure as PNG (300 dpi), SVG, PDF or EPS, completely or not at all.
 
-    `look` is that of its page, and `title` what a reader of an SVG hears.
+    The same figure always gives the same bytes. `look` is that of the page. `title` is
+    the title of an SVG, which screen readers read.
     """
     ending = Path(path).suffix.lower()
     metadata = _METADATA[ending]
@@ -199,30 +197,28 @@ def save(
 
 
 def columns(figure: Figure, label: str, n: int) -> NDArray[Any]:
-    """Make `n` panels side by side with the same axes, and a label of the y axis."""
+    """Make `n` panels side by side with shared axes and a label of the y axis."""
     panels = figure.subplots(1, n, sharex=True, sharey=True, squeeze=False)[0]
     panels[0].set_ylabel(label)
     return panels
 
 
 def pale(color: str, share: float) -> str:
-    """Mix a colour with white: EPS, which knows no transparency, shows it as the others
-    do."""
+    """Mix a colour with white; unlike transparency, this also works in EPS."""
     red, green, blue = 1 - share * (1 - np.array(to_rgb(color)))
     return to_hex((red, green, blue))
 
 
 def set_ticks(axis: Axis, values: Sequence[float]) -> None:
-    """Put ticks at some values of an axis and nowhere else, labelled as decimal
-    numbers."""
+    """Put ticks only at these values of an axis, labelled as decimal numbers."""
     axis.set_ticks(values)
     axis.set_ticks([], minor=True)
     axis.set_major_formatter("{x:g}")
 
 
 def theta_text(theta: float) -> str:
-    """Write theta, as a fraction if it has a small denominator (-5/6), else as a
-    decimal number; without one, the loads are measured."""
+    """Write theta as a fraction if its denominator is small (-5/6), else as a decimal
+    number; NaN means measured loads."""
     if isnan(theta):
         return "loads as measured"
     fraction = Fraction(theta).limit_denominator(12)
@@ -231,14 +227,14 @@ def theta_text(theta: float) -> str:
 
 
 def theta_color(theta: float) -> str:
-    """Colour of a scene: by the end that carries the larger load."""
+    """Return the colour of a scene, which shows the end with the larger load."""
     return TRAILING if theta < 0 else LEADING if theta > 0 else UNIFORM
 
 
 @dataclass(frozen=True)
 class Measured:
-    """Measured points, shape (n, 2): loads F_X or, if so marked, front lengths; the key
-    names them."""
+    """Measured points, shape (n, 2), and their name in the key: loads F_X, or front
+    lengths if `are_lengths`."""
 
     name: str
     points: NDArray[np.float64]
@@ -246,13 +242,15 @@ class Measured:
 
     @property
     def label(self) -> str:
-        """The name in the key, of which a long one has its beginning and end."""
+        """The name in the key; a long one is shortened in the middle."""
         is_long = len(self.name) > LONGEST_NAME
         return plain(f"{self.name[:13]}...{self.name[-13:]}" if is_long else self.name)
 
     def beside(self, curve: NDArray[np.float64], first_global: float, unit: str) -> str:
-        """The name, and how far the points are from the lines between points of a run,
-        up to its first global slip, or NaN."""
+        """Return the name with the rms distance of the points from a curve of the run.
+
+        Points after `first_global` are ignored, unless it is NaN (no global slip).
+        """
         seen, values = self.points[~(self.points[:, 0] > first_global)].T
         if not (len(seen) and len(curve)):
             return self.label
@@ -263,12 +261,12 @@ class Measured:
 
 
 def plain(text: str) -> str:
-    """Keep Matplotlib from reading a dollar sign in a user's text as mathematics.
+    """Escape dollar signs in a user's text, which Matplotlib would read as mathematics.
 
     Raises
     ------
     ValueError
-        If the text has characters that no SVG may have.
+        If the text has characters that are not allowed in SVG.
     """
     if re.search(r"[\x00-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]", text):
         raise ValueError(f"the title must have no control characters, but is {text!r}")
@@ -276,15 +274,17 @@ def plain(text: str) -> str:
 
 
 def draw_key(figure: Figure, entries: Sequence[Any] = (), ncols: int = 0) -> None:
-    """Draw a key below the panels, for marks that mean the same in all of them; by
-    default of all that is drawn and has a label. It has fewer columns, or shorter
-    lines, if they would be wider than the page."""
-    found = {
+    """Draw one key for all panels below them, by default with everything that has a
+    label.
+
+    If the key is wider than the page, it gets fewer columns, then shorter lines.
+    """
+    handles = {
         label: handle
         for axes in figure.axes
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
     }
-    entries = entries or list(found.values())
+    entries = entries or list(handles.values())
     for columns in range(ncols or len(entries), 0, -1):
         key = figure.legend(handles=entries, loc="outside lower center", ncols=columns)
         if key.get_window_extent().width <= figure.bbox.width:
@@ -300,6 +300,6 @@ def draw_key(figure: Figure, entries: Sequence[Any] = (), ncols: int = 0) -> Non
 
 
 def mark(label: str, **look: Any) -> Line2D:
-    """Make an entry of a key that looks like a plotted line or marker; black where no
-    color is given."""
+    """Make an entry of a key that looks like a plotted line or marker, black by
+    default."""
     return Line2D([], [], **{"color": BLACK, **look}, label=label)

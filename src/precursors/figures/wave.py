@@ -14,24 +14,24 @@ from precursors.model.chain import FloatArray
 from precursors.support.files import AnyPath, check_writable, write_text
 
 XMLNS = "http://www.w3.org/2000/svg"
-# Lengths are in pixels of the page that shows it.
+# Lengths are in pixels of the SVG.
 LEFT = 80  # of the first panel, and of the first block at rest
 RIGHT = 980
 PLANE = 140
 BLOCK = 42  # largest side of a block
 FARTHEST = 44.0  # largest displacement
-CLOSEST = 0.8  # of the room between two blocks, by which they may come closer
-LANES = 210  # top of the lanes, one a block, with block 1 at the bottom
-LANE = 16  # largest height of a lane,
-ALL_LANES = 320  # and of all of them
+CLOSEST = 0.8  # largest share of the gap between two blocks by which it may shrink
+LANES = 210  # top of the lanes: one per block, with block 1 at the bottom
+LANE = 16  # largest height of a lane
+ALL_LANES = 320  # largest height of all lanes
 GAP = 24  # between two panels
-SECONDS = 5  # of an act: so many pictures move, and the rest of them rest
+SECONDS = 5  # duration of an act: MOVING pictures, then RESTING ones
 MOVING = 80
 RESTING = 12
 PICTURES = MOVING + RESTING
 SHARES = np.minimum(np.arange(PICTURES) / (MOVING - 1), 1.0)  # of the event
 STUCK = style.PALE
-DARK_INK = "#E6E6E6"  # for readers whose browser is dark
+DARK_INK = "#E6E6E6"  # for browsers in dark mode
 DARK_PAGE = "#16191D"
 KEY = "Coloured: the block slides; half as high: it slides back."
 STYLE = f"""
@@ -54,7 +54,7 @@ rect, path {{ stroke: currentColor }}
 .reach {{ stroke-width: 2; stroke-dasharray: 5 4 }}
 .now {{ stroke-width: 3 }}
 """
-# Block, start and stop as shares of the event, colour.
+# Block, start and stop as shares of the event, colour of each slide.
 Slides = list[tuple[int, float, float, str]]
 
 
@@ -65,7 +65,7 @@ class Movie:
     svg: str
 
     def savefig(self, path: AnyPath) -> None:
-        """Write it.
+        """Write the SVG file.
 
         Raises
         ------
@@ -81,11 +81,11 @@ class Movie:
 
 @dataclass(frozen=True)
 class Act:
-    """An event that is shown, in a panel of its own."""
+    """One event of the movie, with its panel."""
 
     event: Any  # its row of the slip table
     duration: float  # [s]
-    moved: FloatArray  # of each block in each picture [pixels]
+    moved: FloatArray  # displacement in each picture, of each block [pixels]
     scale: float  # pixels per m
     slides: Slides
     left: float  # of its panel
@@ -93,7 +93,7 @@ class Act:
 
     @property
     def name(self) -> str:
-        """What kind of slip it is, and of which blocks."""
+        """The kind of slip and the blocks that slide."""
         if self.event.is_global:
             return "global slip: all blocks at once"
         front = self.event.front
@@ -105,9 +105,9 @@ class Act:
 def draw(run: Any, slips: pd.DataFrame) -> Movie:
     """Draw a precursor, the longest one and the first global slip, one after the other.
 
-    A row of blocks moves and changes colour, and a mark shows how far the event reaches;
-    below it each event has a panel with who slides when. Of `run`, a `Run`, the
-    transitions and the positions are drawn.
+    A row of blocks moves and changes colour, and a mark shows how far the event
+    reaches. Below the row, a panel for each event shows when each block slides. `run`
+    is a `Run`; its transitions and positions are drawn.
     """
     shown = middle_last_and_global(slips)
     if shown.empty:
@@ -148,7 +148,8 @@ def draw(run: Any, slips: pd.DataFrame) -> Movie:
 
 
 def middle_last_and_global(slips: pd.DataFrame) -> pd.DataFrame:
-    """The precursor in the middle of those counted, the last, and the global slip."""
+    """Select the middle one of the counted precursors, the last one, and the global
+    slip."""
     counted = slips[slips["counted"] & slips["end_s"].notna()]
     partial = counted[~counted["is_global"]]
     two = partial.iloc[sorted({(len(partial) - 1) // 2, len(partial) - 1} - {-1})]
@@ -156,7 +157,7 @@ def middle_last_and_global(slips: pd.DataFrame) -> pd.DataFrame:
 
 
 def _act(run: Any, event: Any, room: float, left: float, width: float) -> Act:
-    """Follow an event; `room` is what is between two blocks at rest [pixels]."""
+    """Prepare an event; `room` is the gap between two blocks at rest [pixels]."""
     duration = event.end_s - event.onset_s
     positions, _ = run.at(event.onset_s + SHARES * duration)
     moved = positions - positions[0]
@@ -167,22 +168,22 @@ def _act(run: Any, event: Any, room: float, left: float, width: float) -> Act:
 
 
 def _slides(transitions: NDArray[Any], event: Any) -> Slides:
-    """Which block slides from when to when, and which way."""
+    """List which block slides when, and in which direction."""
     onset, end = event.onset_s, event.end_s
     colors = {1: style.GLOBAL if event.is_global else style.PARTIAL, -1: style.BACKWARD}
     inside = (transitions["time"] >= onset) & (transitions["time"] <= end)
-    found = []
+    slides = []
     for block in np.unique(transitions["block"]):
         own = transitions[inside & (transitions["block"] == block)]
         shares = np.append((own["time"] - onset) / (end - onset), 1.0)
         for start, stop, mode in zip(shares, shares[1:], own["mode"], strict=False):
             if mode:
-                found.append((int(block), start, stop, colors[mode]))
-    return found
+                slides.append((int(block), start, stop, colors[mode]))
+    return slides
 
 
 def _drive(side: float) -> str:
-    """The wall that pushes, and an arrow to where; it moves too slowly to be seen."""
+    """Draw the wall that pushes and an arrow; it moves too slowly to be animated."""
     x, y = LEFT - BLOCK, PLANE - side / 2
     return (
         f'<path d="M{x} {PLANE}v{-BLOCK}h-6v{BLOCK}z"/>'
@@ -194,7 +195,7 @@ def _drive(side: float) -> str:
 def _springs(
     home: FloatArray, moved: FloatArray, side: float, n_acts: int
 ) -> Iterable[str]:
-    """The drive's spring, whose other end rests, and those between the blocks."""
+    """Draw the spring of the drive and those between the blocks."""
     right = home + moved
     left = np.insert(right[:, :-1] + side, 0, LEFT - BLOCK, axis=1)
     for of_spring in np.stack([left, right], axis=2).swapaxes(0, 1):
@@ -210,7 +211,7 @@ def _spring(x1: float, x2: float, y: float) -> str:
 
 
 def _block(i: int, x: float, moved: FloatArray, side: float, acts: list[Act]) -> str:
-    """A block, with its number, that moves and has the colour of what it does."""
+    """Draw a block with its number; it moves, and its colour shows its state."""
     share = MOVING / PICTURES
     colors = [STUCK]
     times = [0.0]
@@ -236,7 +237,8 @@ def _caption(
     side: float,
     pixels_per_m: float,
 ) -> str:
-    """What is shown, and how far it reaches, while it is shown."""
+    """Draw the text about an event and the mark of its front, visible during the
+    event."""
     slower = SECONDS * MOVING / PICTURES / act.duration
     scales = (
         f'F<tspan class="index" dy="4">X</tspan><tspan dy="-4"> = </tspan>'
@@ -263,8 +265,8 @@ def _numbers(n: int, lane: float) -> Iterable[str]:
 
 
 def _panel(act: Act, lane: float, bottom: float) -> Iterable[str]:
-    """When each block slides: a bar over time, half as high where it slides back; how
-    far the event reaches; and the time."""
+    """Draw the panel of an event: a bar while a block slides (half as high for backward
+    sliding), a line for the front, and the axis of time."""
     for block, start, stop, color in act.slides:
         x = act.left + start * act.width
         y = bottom - lane * block
@@ -287,7 +289,7 @@ def _panel(act: Act, lane: float, bottom: float) -> Iterable[str]:
 
 
 def _now(acts: list[Act], bottom: float) -> str:
-    """The moment that moves along the panels."""
+    """Draw the line that marks the current time in the panels."""
     x = np.concatenate([act.left + act.width * SHARES for act in acts])
     moving = _move(x - LEFT, len(acts))
     return f'<path class="now" d="M{LEFT} {LANES - 4}V{bottom:.1f}">{moving}</path>'
@@ -296,7 +298,7 @@ def _now(acts: list[Act], bottom: float) -> str:
 def _animate(
     name: str, values: Iterable[str], n_acts: int, more: str = "", tag: str = "animate"
 ) -> str:
-    """Let an attribute take values in turn, again and again."""
+    """Animate an attribute through values in an endless loop."""
     looping = f'dur="{SECONDS * n_acts}s" repeatCount="indefinite"'
     return (
         f'<{tag} attributeName="{name}" values="{";".join(values)}" {looping} {more}/>'
@@ -309,5 +311,5 @@ def _move(pixels: FloatArray, n_acts: int) -> str:
 
 
 def _rounded(value: float) -> str:
-    """Two significant digits, and a comma between thousands."""
+    """Write a number with two significant digits and commas between thousands."""
     return f"{float(f'{value:.2g}'):,.0f}"

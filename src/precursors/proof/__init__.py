@@ -1,8 +1,8 @@
-"""Proof of a run: every transition of a chain in exact numbers, with an enclosure of
-its time and load.
+"""Prove every transition of a chain with exact parameters, and enclose its time and
+load.
 
-`certify` proves (it needs python-flint, the extra "proof"); certificates are read and
-checked without it.
+`certify` and `verify` need python-flint (the extra "proof"). Certificates can be read
+without it.
 """
 
 from precursors.proof.certificate import (

@@ -1,5 +1,5 @@
-"""Certificates: what is proved of a run, as a file that anyone can read and prove
-again."""
+"""Certificates: the proved transitions of a run, in a file that anyone can read and
+verify."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ CLAIM = (
     "and the speed of one that stops or turns [m/s^2]; 0 for a block that moves from "
     "the start."
 )
-# Twice as many take four times as long, and none was needed yet.
+# Twice as many bits take four times as long; no proof has needed this many yet.
 MOST_BITS = 16_384
 EXACT = Context(prec=1000, traps=[Inexact])
 
 
 class CertificateError(ValueError):
-    """A certificate that is damaged, is not what is proved, or cannot be made."""
+    """A certificate is damaged, differs from its proof, or cannot be made."""
 
 
 class Enclosure(NamedTuple):
@@ -48,16 +48,16 @@ class Enclosure(NamedTuple):
 
     @property
     def lower(self) -> Fraction:
-        """Least value."""
+        """Smallest number of the enclosure."""
         return self.midpoint - self.radius
 
     @property
     def upper(self) -> Fraction:
-        """Largest value."""
+        """Largest number of the enclosure."""
         return self.midpoint + self.radius
 
     def contains(self, other: Enclosure) -> bool:
-        """Whether every number of another enclosure lies inside."""
+        """Whether another enclosure lies within this one."""
         return self.lower <= other.lower and other.upper <= self.upper
 
 
@@ -65,10 +65,11 @@ class CertifiedTransition(NamedTuple):
     """A change of one block's state: time [s], block 1..N, mode +1 | 0 | -1, tangential
     load F_X [N].
 
-    `slope` is the least rate at which its event function falls through zero: the margin
-    of a block that is released [N/s], the speed of one that stops or turns [m/s^2]. It
-    is 0 for a block that moves from the start, and above 0 else: none only grazes. A
-    block without load has no friction and no transitions.
+    `slope` is the least rate at which the event function falls through zero. That
+    function is the margin of a block that is released [N/s], or the speed of one that
+    stops or turns [m/s^2]. The slope is 0 for a block that moves from the start, and
+    otherwise positive: no event function only grazes zero. A block without load has no
+    friction and no transitions.
     """
 
     time: Enclosure
@@ -79,10 +80,10 @@ class CertifiedTransition(NamedTuple):
 
 
 class Tie(NamedTuple):
-    """Where a proof ends because instants cannot be told apart.
+    """The end of a proof at which the order of events cannot be decided.
 
-    When [s], the blocks concerned, what could not be decided, and the length of time
-    within which it is [s].
+    It has the time [s], the blocks concerned, the undecided question, and the width of
+    the time interval within which it is undecided [s].
     """
 
     time: Enclosure
@@ -93,11 +94,12 @@ class Tie(NamedTuple):
 
 @dataclass(frozen=True)
 class Certificate:
-    """All transitions of a chain from its start [m, m/s] in order, proved.
+    """All proved transitions of a chain, in order, from its start [m, m/s].
 
-    It is about a `duration` [s], or ends with the first event in which all blocks slide
-    at the same instant (`until`), or before at a `tie`. No time has a radius above
-    `width` [s]. `bits` is the working precision at the start of the proof.
+    The proof covers the `duration` [s]. It ends earlier at a `tie`, or, with `until`,
+    at the end of the first event in which all blocks slide at the same instant. No time
+    has a radius above `width` [s]. `bits` is the working precision at the start of the
+    proof.
     """
 
     chain: ExactChain
@@ -118,12 +120,11 @@ class Certificate:
 
     @property
     def proved_until(self) -> Fraction:
-        """Time [s] up to which the transitions listed are proved to be all."""
+        """Time [s] up to which the list of transitions is proved complete."""
         return self.tie.time.lower if self.tie else self.duration
 
     def save(self, path: AnyPath) -> None:
-        """Write the certificate as JSON compressed with gzip, the same bytes for the
-        same certificate."""
+        """Write the certificate as gzipped JSON; equal certificates give equal bytes."""
         write_whole(
             path, gzip.compress(json.dumps(_content(self), indent=0).encode(), mtime=0)
         )
@@ -137,7 +138,7 @@ class Certificate:
         OSError
             If the file cannot be read.
         CertificateError
-            If it is damaged, or no certificate.
+            If it is damaged or not a certificate.
         """
         raw = Path(path).read_bytes()
         try:
@@ -152,7 +153,7 @@ class Certificate:
                 if content.get(name) != again.get(name):
                     raise ValueError(f"its {name} is not what a certificate says")
             return certificate
-        except Exception as error:  # nearly any, as the file may hold anything
+        except Exception as error:  # the file may contain anything
             why = str(error) or type(error).__name__
             raise CertificateError(
                 f"{path} is not a whole certificate: {why}"
@@ -160,7 +161,7 @@ class Certificate:
 
 
 def _content(certificate: Certificate) -> dict[str, Any]:
-    """The content of the file of a certificate."""
+    """Return a certificate as the content of its file."""
     tie = certificate.tie
     return {
         "format": FORMAT,
@@ -193,7 +194,7 @@ def _content(certificate: Certificate) -> dict[str, Any]:
 
 
 def _certificate(content: Mapping[str, Any]) -> Certificate:
-    """The certificate in the content of a file."""
+    """Return the certificate from the content of its file."""
     tie = content["tie"]
     chain = ExactChain(**content["chain"])
     return Certificate(

@@ -1,8 +1,8 @@
-"""The first root of all event functions, proved for every run within reach.
+"""Prove which event function has the first root, for every run within the enclosure.
 
 An event function is positive while its block keeps its state: mode * velocity of a
-sliding block, mu_s w -+ net force of a stuck one. Its polynomials are balls wide enough
-for every run of the model: a proof holds for all.
+sliding block, mu_s w -+ net force of a stuck one. The balls of its polynomials are wide
+enough to enclose every run of the model, so that a proof holds for all of them.
 """
 
 import math
@@ -13,17 +13,17 @@ from flint import arb, arb_poly, ctx
 from precursors.model.chain import FREE
 from precursors.proof.motion import Constants, EnclosedState, expand, force_rate
 
-# A window without a transition, and how far beyond its end the polynomials hold [T].
+# Length of a window without a transition, and time up to which polynomials hold [T].
 WINDOW = 1.0
 VALID = 1.125
 
 
 class Undecided(Exception):
-    """A question about some blocks that cannot be decided: more bits are needed, or
-    there is a tie.
+    """A question about some blocks cannot be decided: more bits are needed, or there is
+    a tie.
 
-    The ball `time` is the time within which it is undecided: [T] from where the step
-    began, and [s] once the proof has stopped.
+    The ball `time` encloses the time of the question: in T from the start of the step,
+    or in s once the proof has stopped.
     """
 
     def __init__(self, question: str, blocks: tuple[int, ...], time: arb) -> None:
@@ -39,8 +39,8 @@ class EventFunction:
 
     `direction` is 0 for the velocity of a sliding block, +1 or -1 for a stuck block's
     margin in that direction. The function and its first two derivatives enclose those
-    of every run. A `fresh` one is zero at the transition at the start, with a slope
-    that is not negative.
+    of every run. A `fresh` function is zero at the transition at the start, where its
+    slope is not negative.
     """
 
     block: int
@@ -52,7 +52,7 @@ class EventFunction:
 
     @property
     def what(self) -> str:
-        """The change at the root, in words."""
+        """The change at the root, as part of a question."""
         change = {0: "stops", 1: "is released forward", -1: "is released backward"}
         return f"block {self.block} {change[self.direction]}"
 
@@ -60,13 +60,14 @@ class EventFunction:
 def event_functions(
     constants: Constants, state: EnclosedState, fresh: set[int], bits: int
 ) -> list[EventFunction]:
-    """Velocities of the sliding blocks and margins of the stuck ones that feel a
-    change, up to `VALID`.
+    """Return the event functions, valid up to `VALID`: velocities of the sliding blocks,
+    and margins of those stuck blocks whose net force changes.
 
     `fresh` are the blocks that have just begun to slide.
     """
     polynomials, rests = expand(constants, state, VALID, bits)
-    # The centre is given the exact condition of a transition, and room for that.
+    # Twice the distance leaves room to move the centre onto the exact condition of a
+    # transition.
     distance = 2 * state.distance
     functions = []
     for i in range(1, len(state.mode) - 1):
@@ -98,29 +99,29 @@ def event_functions(
 def first_crossing(
     functions: list[EventFunction], back: arb
 ) -> tuple[EventFunction, arb] | None:
-    """Return the function that crosses zero first and an enclosure of its root; None if
-    none does in the window.
+    """Return the function that crosses zero first and an enclosure of its root, or None
+    if none crosses zero in the window.
 
-    A run may have had the transition at the start by `back` [T] before zero.
+    A run may have made the transition at the start up to `back` [T] before zero.
 
     Raises
     ------
     Undecided
         If two roots overlap, or the sign of a function cannot be decided.
     """
-    found: list[tuple[arb, EventFunction]] = []
+    roots: list[tuple[arb, EventFunction]] = []
     end = WINDOW
     for function in functions:
         root = _crossing(function, end, back)
         if root is not None:
-            found.append((root, function))
+            roots.append((root, function))
             end = min(end, math.nextafter(float(root.upper()), math.inf))
-    if not found:
+    if not roots:
         return None
     root, first = min(
-        found, key=lambda pair: pair[0]
+        roots, key=lambda pair: pair[0]
     )  # the earliest, unless two overlap
-    for other, function in found:
+    for other, function in roots:
         if function is not first and other.overlaps(root):
             question = f"whether first {first.what} or {function.what}"
             raise Undecided(question, (first.block, function.block), root.union(other))
@@ -128,14 +129,15 @@ def first_crossing(
 
 
 def _crossing(function: EventFunction, end: float, back: arb) -> arb | None:
-    """First root of a function up to `end`, or None once it is proved positive."""
+    """Return the first root of a function up to `end`, or None if it is proved
+    positive."""
     smallest = arb(2) ** -(ctx.prec // 2 + 8)
     pieces = [(arb(0), arb(end), True)]
     while pieces:
         a, b, at_start = pieces.pop()
         half = (b - a) / 2
         middle = a + half
-        # At the start a run may be ahead or behind by `back`.
+        # The first piece must hold for runs that are ahead or behind by `back`.
         reach = (half + back).abs_upper() if at_start else half
         box = arb(middle, reach)
         slope = function.slope(box)
@@ -161,8 +163,8 @@ def _crossing(function: EventFunction, end: float, back: arb) -> arb | None:
 
 
 def _falling_root(function: EventFunction, a: arb, b: arb) -> arb | None:
-    """Enclose the root of a function that falls on [a, b], where a root next to b may
-    lie a little beyond."""
+    """Enclose the root of a function that falls on [a, b]; a root near b may lie a little
+    beyond."""
     if not function.value(b) < 0:
         b = b + (b - a)
         if not (
@@ -182,8 +184,10 @@ def _falling_root(function: EventFunction, a: arb, b: arb) -> arb | None:
 
 
 def newton(function: arb_poly, root: arb) -> arb:
-    """Return an exact number near the root, to about the working precision; what is
-    left of it is counted later."""
+    """Return an exact number near the root, to about the working precision.
+
+    The caller counts the remaining error as distance.
+    """
     slope = function.derivative()
     x = root.mid()
     bits = ctx.prec

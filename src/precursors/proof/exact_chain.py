@@ -1,4 +1,4 @@
-"""The chain of blocks in exact rational numbers: 5/6 is 5/6."""
+"""The chain of blocks with exact rational parameters, so that 5/6 is not rounded."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class ExactChain:
     Raises
     ------
     ValueError
-        As `Chain`, naming the parameter.
+        As for `Chain`; the message names the parameter.
     """
 
     weights: tuple[Fraction, ...]
@@ -54,8 +54,8 @@ class ExactChain:
         """Cut a slider into N equal blocks (Eqs. 7, 9, 10) as `Chain.from_slider` does,
         without rounding.
 
-        Numbers are taken as they are written: 0.7 and Fraction(7, 10) are the same,
-        theta may be "5/6".
+        Numbers are read as written: 0.7 and Fraction(7, 10) are the same, and theta may
+        be "5/6".
         """
         slider = {
             name: exact(name, x) for name, x in (_PAPERS_SLIDER | changes).items()
@@ -64,7 +64,7 @@ class ExactChain:
         n = n_blocks
         load = slider["normal_load"]
         extent = slider["length"]
-        # At N = 1 Eq. 7 is 0/0; the one block carries the whole load.
+        # For N = 1, Eq. 7 is 0/0; the block carries the whole load.
         offsets = (Fraction(2 * i - n - 1, max(n - 1, 1)) for i in range(1, n + 1))
         return cls(
             weights=tuple(load / n * (1 + x * slider["theta"]) for x in offsets),
@@ -79,13 +79,12 @@ class ExactChain:
 
     @classmethod
     def from_chain(cls, chain: Chain) -> ExactChain:
-        """Take the doubles of a chain for exactly what they are."""
+        """Make an exact chain from the exact values of the doubles of a chain."""
         numbers = {name: Fraction(getattr(chain, name)) for name in _NUMBERS}
         return cls(weights=tuple(Fraction(float(w)) for w in chain.weights), **numbers)
 
     def to_chain(self) -> Chain:
-        """Round every number once, to the chain that the solver in double precision is
-        given."""
+        """Round every number once, for the solver in double precision."""
         return Chain(
             weights=np.array([float(w) for w in self.weights]),
             **{name: float(getattr(self, name)) for name in _NUMBERS},
@@ -102,8 +101,8 @@ class ExactChain:
         return (self.drive_stiffness, *[self.stiffness] * (self.n_blocks - 1))
 
     def as_text(self) -> dict[str, str | list[str]]:
-        """Every number as a fraction in a string: `ExactChain(**chain.as_text())` is
-        the chain."""
+        """Return every number as a fraction in a string, so that
+        `ExactChain(**chain.as_text())` equals the chain."""
         text: dict[str, str | list[str]] = {
             name: str(getattr(self, name)) for name in _NUMBERS
         }
@@ -111,8 +110,13 @@ class ExactChain:
 
 
 def written_fraction(text: str) -> Fraction:
-    """Return a decimal or a fraction as it is written, or raise a ValueError or
-    ZeroDivisionError."""
+    """Read a decimal or a fraction exactly.
+
+    Raises
+    ------
+    ValueError, ZeroDivisionError
+        If the text is not such a number.
+    """
     if re.search(r"[eE][-+]?[\d_]{4}", text):
         raise ValueError(
             f"{text!r} has an exponent of four digits"
@@ -121,7 +125,7 @@ def written_fraction(text: str) -> Fraction:
 
 
 def exact(name: str, value: object) -> Fraction:
-    """Return a number as it is written: a fraction, a decimal in a string, or a float
+    """Return a number exactly as written: a fraction, a decimal in a string, or a float
     as Python prints it.
 
     Raises
@@ -144,7 +148,7 @@ def exact(name: str, value: object) -> Fraction:
 
 
 def as_decimal(x: Fraction, context: Context) -> Decimal:
-    """Return a fraction as a decimal number, rounded as the context says."""
+    """Return a fraction as a decimal number, rounded in the given context."""
     return context.divide(Decimal(x.numerator), Decimal(x.denominator))
 
 

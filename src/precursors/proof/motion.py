@@ -1,8 +1,9 @@
-"""The motion between transitions in ball arithmetic, and how far apart runs of the
-model can be.
+"""Compute the motion between transitions in ball arithmetic, and bound the distance
+between runs of the model.
 
-Units: force in N, time in T (a power of two of seconds, and no frequency of the chain
-is above 2 / T), u = m v / T in N. With c_i = k_i T^2 / m and k_1 = K, Eqs. 2-4 are
+Units: force in N, time in T, and u = m v / T in N. T is a power of two in seconds, such
+that no frequency of the chain is above 2 / T. With c_i = k_i T^2 / m and k_1 = K, Eqs.
+2-4 are
 
     dT_i/dt = c_i (u_{i-1} - u_i),
     du_i/dt = T_i - T_{i+1} - mode_i mu_k w_i   where block i slides, else u_i = 0,
@@ -12,8 +13,8 @@ distance between two runs,
 
     |e|^2 = sum e_{T_i}^2 / c_i + sum e_{u_i}^2,
 
-is the energy of their difference. While both have the same modes it does not change;
-see `tube` for what a transition does to it.
+is the energy of their difference. It does not change while both runs have the same
+modes; `tube` explains how a transition changes it.
 """
 
 from __future__ import annotations
@@ -29,9 +30,9 @@ from flint import arb, arb_poly, ctx, fmpq
 
 from precursors.proof.exact_chain import ExactChain
 
-# Bits of the radii and of all that only bounds something.
+# Bits of radii and of other bounds.
 BOUND_BITS = 64
-# Square of the largest frequency times T, at most (Gershgorin).
+# Upper bound of (largest frequency * T)^2, by Gershgorin.
 LARGEST_FREQUENCY_SQUARED = 4
 
 
@@ -41,7 +42,7 @@ def ball(x: Fraction) -> arb:
 
 
 def bordered(of_blocks: Iterable[Fraction]) -> list[Fraction]:
-    """Numbers of the blocks between zeros of the drive and the free end."""
+    """Add zeros for the drive and the free end to numbers of the blocks."""
     return [Fraction(0), *of_blocks, Fraction(0)]
 
 
@@ -57,7 +58,7 @@ def time_unit(chain: ExactChain) -> Fraction:
     pairs = pairwise((*chain.springs, Fraction(0)))
     fastest = max(2 * (k + ahead) for k, ahead in pairs) / chain.mass
     ratio = LARGEST_FREQUENCY_SQUARED / fastest
-    # the logarithm of the ratio to base 2, rounded down, or one more
+    # floor(log2(ratio)) or one more
     power = ratio.numerator.bit_length() - ratio.denominator.bit_length()
     return Fraction(2) ** ((power - (Fraction(2) ** power > ratio)) // 2)
 
@@ -66,9 +67,10 @@ def time_unit(chain: ExactChain) -> Fraction:
 class Constants:
     """A chain in the units above, in balls; index 0 is the drive, N + 1 the free end.
 
-    coupling c_i [1], strength mu_s w_i and friction mu_k w_i [N], drive u_0 [N],
-    frequency_squared a bound of all [1/T^2]; force_reach and force_rate_reach are the
-    largest changes of the net force on a block, and of its rate, at unit distance.
+    The fields are coupling c_i [1], strength mu_s w_i [N], friction mu_k w_i [N], drive
+    u_0 [N], and frequency_squared, an upper bound [1/T^2]. force_reach and
+    force_rate_reach are the largest changes of the net force on a block, and of its
+    rate, at unit distance.
     """
 
     coupling: list[arb]
@@ -99,11 +101,11 @@ class Constants:
 
 @dataclass
 class EnclosedState:
-    """A centre, exact, and a bound of the distance [N] within which every run of the
-    model is from it.
+    """An exact centre, and a bound of the distance [N] of every run of the model from
+    it.
 
-    The lists have T_i and u_i [N] and the mode of each block, FREE of those without
-    load; index 0 and N + 1 are the drive and the free end, kept at zero.
+    The lists are T_i [N], u_i [N] and the mode of each block, which is FREE for a moving
+    block without load. Index 0 is the drive and N + 1 the free end; both stay zero.
     """
 
     force: list[arb]
@@ -116,7 +118,7 @@ class EnclosedState:
         return self.force[i] - self.force[i + 1]
 
     def sliding_rows(self) -> Iterator[list[int]]:
-        """Blocks of each row of neighbours that slide."""
+        """Yield each row of neighbouring blocks that slide."""
         blocks = range(1, len(self.mode) - 1)
         for slides, row in groupby(blocks, key=lambda i: self.mode[i] != 0):
             if slides:
@@ -132,10 +134,10 @@ class EnclosedState:
         self.rate = [x.mid() for x in rate]
 
     def largest_force_change(self, constants: Constants, gap: arb) -> arb:
-        """Bound how much a net force changes in any run during twice the gap [T], in N.
+        """Bound the change of any net force [N] in any run during twice the gap [T].
 
-        |(T, u)| grows at most at the rate sqrt(c_1) u_0 + |mu_k w|, forwards or
-        backwards in time.
+        |(T, u)| grows at most at the rate sqrt(c_1) u_0 + |mu_k w|, forward or backward
+        in time.
         """
         friction = sum((f**2 for f in constants.friction), arb(0)).sqrt()
         gain = (constants.coupling[1].sqrt() * constants.drive + friction) * 2 * gap
@@ -149,7 +151,7 @@ class EnclosedState:
 
 
 def size(constants: Constants, force: list[arb], rate: list[arb]) -> arb:
-    """Distance of a state from rest without forces [N], see above."""
+    """Return the distance [N] of a state from rest without forces, as defined above."""
     squares = (
         f**2 / c + u**2
         for c, f, u in zip(constants.coupling, force, rate, strict=True)
@@ -161,10 +163,10 @@ def size(constants: Constants, force: list[arb], rate: list[arb]) -> arb:
 def expand(
     constants: Constants, state: EnclosedState, span: float | arb, bits: int
 ) -> tuple[dict[int, arb_poly], list[arb]]:
-    """Taylor polynomials of u_i of the sliding blocks, to about `bits` bits for times
-    up to +-`span` [T].
+    """Return Taylor polynomials of u_i of the sliding blocks, accurate to about `bits`
+    bits for times up to +-`span` [T].
 
-    The list bounds what lies beyond them, of all u_i and of their first two
+    The list has bounds of their remainders, for all u_i and their first two
     derivatives.
     """
     series = coefficients(constants, state, order_for(float(span), bits))
@@ -175,8 +177,8 @@ def expand(
 def coefficients(
     constants: Constants, state: EnclosedState, order: int
 ) -> dict[int, list[arb]]:
-    """Taylor coefficients 0..order of u_i of the sliding blocks, from the second-order
-    form of Eq. 2,
+    """Return Taylor coefficients 0..order of u_i of the sliding blocks, from the
+    second-order form of Eq. 2,
 
     (n+1) (n+2) u_{i,n+2} = c_i (u_{i-1,n} - u_{i,n}) - c_{i+1} (u_{i,n} - u_{i+1,n}).
     """
@@ -208,8 +210,8 @@ def coefficients(
 def tail(
     constants: Constants, series: dict[int, list[arb]], span: arb, derivative: int
 ) -> arb:
-    """Bound what lies beyond the last order of all u_i, or of a derivative, for times
-    up to +-`span` [T].
+    """Bound the remainders of all u_i, or of a derivative, for times up to +-`span`
+    [T].
 
     With a_n the largest coefficient, a_{n+2} <= omega^2 a_n / ((n+1)(n+2)); derivatives
     obey the same.
@@ -227,8 +229,8 @@ def tail(
 
 
 def order_for(span: float, bits: int) -> int:
-    """Order whose remainder over `span` [T] is about 2^-bits of the largest term;
-    `tail` has the bound."""
+    """Return the order whose remainder over `span` [T] is about 2^-bits of the largest
+    term; `tail` gives the proved bound."""
     reach = max(math.sqrt(LARGEST_FREQUENCY_SQUARED) * span, 1e-9)
     order = 6
     while math.lgamma(order + 1) - order * math.log(reach) < bits * math.log(2):
@@ -239,7 +241,7 @@ def order_for(span: float, bits: int) -> int:
 def force_rate(
     constants: Constants, polynomials: dict[int, arb_poly], i: int
 ) -> arb_poly:
-    """Taylor polynomial of the rate of the net force on a stuck block i."""
+    """Return the Taylor polynomial of the rate of the net force on a stuck block i."""
     rate = arb_poly([constants.coupling[1] * constants.drive] if i == 1 else [])
     for neighbour, spring in ((i - 1, i), (i + 1, i + 1)):
         if neighbour in polynomials:
@@ -254,7 +256,7 @@ def advance(
     rest: arb,
     step: arb,
 ) -> None:
-    """Move the state by `step` [T], exact, with `rest` bounding the remainder of each
+    """Advance the state by an exact `step` [T]; `rest` bounds the remainder of each
     u_i."""
     around = arb(0, rest)
     slip = [arb(0)] * len(state.mode)

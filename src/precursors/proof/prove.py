@@ -1,4 +1,4 @@
-"""Making proofs and certificates, and verifying them."""
+"""Make certificates and verify them."""
 
 from __future__ import annotations
 
@@ -36,15 +36,14 @@ if TYPE_CHECKING:
 FIRST_BITS = 256
 MAX_BITS = 4096
 WIDTH = "1e-40"
-# Midpoints are written with at most so many decimals, and no more than their radius
-# deserves.
+# Largest number of decimals of a midpoint; a wide radius has fewer.
 DECIMALS = 45
-# A radius is written with this to spare, for a version of the ball arithmetic that
-# rounds otherwise.
+# Radii are enlarged by this factor, so that a version of the ball arithmetic that rounds
+# differently still verifies a certificate.
 SPARE = Fraction(101, 100)
-# Radii are rounded up to three digits, and to a few more decimals than midpoints have.
+# Radii are rounded up to three digits, with a few more decimals than midpoints.
 ROUND_UP = Context(prec=3, Emin=-DECIMALS, rounding=ROUND_CEILING)
-# A slope is written so much smaller for the same reason, and rounded down to four
+# Slopes are reduced by this factor for the same reason, and rounded down to four
 # digits.
 SPARE_OF_SLOPE = 1 - Fraction(1, 10**6)
 ROUND_DOWN = Context(prec=4, rounding=ROUND_FLOOR)
@@ -62,14 +61,14 @@ def certify(
     """Prove the transitions of a chain (Eqs. 2-6), in ball arithmetic on exact
     parameters.
 
-    The proof is begun again with twice the bits until it is complete.
+    The proof is repeated with twice the bits until it is complete.
 
     Parameters
     ----------
     chain : ExactChain or Chain
-        Exact parameters; the doubles of a `Chain` are taken for exactly what they are.
+        Exact parameters; the doubles of a `Chain` are used exactly.
     duration : number
-        Time to prove [s]; numbers are taken as they are written, "1/3" is a third.
+        Time to prove [s]; numbers are read as written, and "1/3" is a third.
     until : "global slip", optional
         Stop at the end of the first event in which all blocks slide at the same
         instant.
@@ -78,15 +77,15 @@ def certify(
     width : number
         Largest radius of a time [s].
     max_bits : int
-        Largest working precision; a proof that is undecided there within `width` is a
-        tie.
+        Largest working precision; a question still undecided there, within `width`, is
+        a tie.
 
     Raises
     ------
     TypeError, ValueError
-        If `chain` is no chain, or another argument is out of range.
+        If `chain` is not a chain, or another argument is out of range.
     CertificateError
-        If `max_bits` do not suffice for enclosures of `width`.
+        If `max_bits` is too small for enclosures of `width`.
     ModuleNotFoundError
         If python-flint is not installed.
     """
@@ -135,15 +134,15 @@ def certify(
 
 
 def verify(certificate: Certificate | AnyPath) -> Certificate:
-    """Make the proof of a certificate, or of the file of one, again, with its bits;
-    return the certificate.
+    """Repeat the proof of a certificate, or of its file, and return the certificate.
 
-    Each recorded enclosure must contain the proved one.
+    The proof uses the recorded bits. Each recorded enclosure must contain the proved
+    one.
 
     Raises
     ------
     CertificateError
-        If the certificate is not what is proved; the message says where.
+        If the certificate differs from its proof; the message says where.
     OSError
         If the file cannot be read.
     ModuleNotFoundError
@@ -159,8 +158,8 @@ def verify(certificate: Certificate | AnyPath) -> Certificate:
 
 
 def _prove(certificate: Certificate) -> tuple[Proof, Undecided | None]:
-    """Prove the transitions of a certificate's chain with its bits; return why that
-    stopped short, if so."""
+    """Prove the transitions of a certificate's chain with its bits; return the proof and
+    the question at which it stopped early, if any."""
     try:
         from precursors.proof.event_roots import Undecided
         from precursors.proof.tube import Proof
@@ -189,25 +188,25 @@ def _tie(failure: Undecided) -> Tie:
 
 
 def _differences(certificate: Certificate) -> Iterator[str]:
-    """Where a certificate is not what its proof gives."""
+    """Describe each difference between a certificate and its proof."""
     proof, failure = _prove(certificate)
-    for number, (said, proved) in enumerate(
+    for number, (stated, proved) in enumerate(
         zip(certificate.transitions, proof.transitions, strict=False), 1
     ):
         where = f"transition {number}, t = {float(proved.time):.9g} s"
-        if (said.block, said.mode) != (proved.block, proved.mode):
+        if (stated.block, stated.mode) != (proved.block, proved.mode):
             yield f"{where}: block {proved.block} goes to mode {proved.mode:+d}, which is not what is stated"
-        if not said.time.contains(_enclosure_of(proved.time)):
-            yield f"{where}: its time is not proved within {float(said.time.radius):.3g} s"
-        if not said.tangential_load.contains(_enclosure_of(proved.tangential_load)):
-            yield f"{where}: its load is not proved within {float(said.tangential_load.radius):.3g} N"
-        if said.slope > _enclosure_of(proved.slope).lower:
-            yield f"{where}: a slope of {float(said.slope):.3g} is not proved"
+        if not stated.time.contains(_enclosure_of(proved.time)):
+            yield f"{where}: its time is not proved within {float(stated.time.radius):.3g} s"
+        if not stated.tangential_load.contains(_enclosure_of(proved.tangential_load)):
+            yield f"{where}: its load is not proved within {float(stated.tangential_load.radius):.3g} N"
+        if stated.slope > _enclosure_of(proved.slope).lower:
+            yield f"{where}: a slope of {float(stated.slope):.3g} is not proved"
     if len(certificate.transitions) != len(proof.transitions):
         yield f"{len(certificate.transitions)} transitions instead of {len(proof.transitions)}"
     blocks = certificate.tie.blocks if certificate.tie else "none"
-    if blocks != (found := failure.blocks if failure else "none"):
-        yield f"a tie of blocks {blocks} instead of {found}"
+    if blocks != (tied := failure.blocks if failure else "none"):
+        yield f"a tie of blocks {blocks} instead of {tied}"
     if (
         certificate.tie
         and failure
@@ -217,7 +216,7 @@ def _differences(certificate: Certificate) -> Iterator[str]:
 
 
 def _rounded_down(slope: arb) -> Fraction:
-    """Round a slope down to a decimal number of four digits."""
+    """Round a slope down to four decimal digits."""
     least = _enclosure_of(slope).lower * SPARE_OF_SLOPE
     return Fraction(as_decimal(least, ROUND_DOWN))
 
@@ -232,9 +231,8 @@ def _fraction(x: arb) -> Fraction:
 
 
 def _rounded(enclosure: Enclosure) -> Enclosure:
-    """Round an enclosure outward to one of decimal numbers."""
-    # 10^-decimals is at most a hundredth of the radius, or at the least decimals that
-    # are written
+    """Round an enclosure outward to decimal numbers."""
+    # 10^-decimals is at most a hundredth of the radius, unless DECIMALS limits it.
     digit = as_decimal(enclosure.radius, ROUND_UP).adjusted()
     decimals = min(DECIMALS, max(0, 2 - digit)) if enclosure.radius else DECIMALS
     midpoint = round(enclosure.midpoint, decimals)

@@ -1,27 +1,27 @@
-"""The proof: a run of balls that every run of the model stays in, transition by
+"""The proof: a tube of balls that encloses every run of the model, transition by
 transition.
 
-The state is a centre, exact, and a distance (see `motion`). With e the difference of
-two runs and f their friction, d|e|^2/dt = -2 sum e_{u_i} e_{f_i}. So the distance is
-constant while both have the same modes; a transition, which the two have at different
-instants, changes it as follows.
+The state is an exact centre and a distance (see `motion`). Let e be the difference of
+two runs and f their friction. Then d|e|^2/dt = -2 sum e_{u_i} e_{f_i}. The distance is
+therefore constant while both runs have the same modes. They make a transition at
+different instants, which changes the distance as follows.
 
-- A block stops: one run holds it at u = 0 with friction equal to its net force F, the
-  other still slides with mode * u > 0 under mu_k w. As mode * F < mu_k w (it was
-  slowing down) the distance does not grow.
-- A block turns round: friction opposes the difference of the velocities; the distance
-  does not grow.
-- A block is released: for the time `gap` between the two releases one slides, under
-  mu_k w, and the other is held by at most mu_s w. |e|^2 grows by at most ((mu_s - mu_k)
-  w gap)^2. Only releases drive runs apart.
-- While all blocks rest, the next release is a matter of the forces alone: runs are
-  compared each at its own onset, where T_1 = T_2 + mu_s w_1, and the distance grows at
-  most by sqrt(1 + c_2 / c_1).
+- A block stops: in one run it is at u = 0, with friction equal to its net force F. In
+  the other it still slides with mode * u > 0 against mu_k w. It was slowing down, so
+  that mode * F < mu_k w, and the distance does not grow.
+- A block turns round: friction opposes the difference of the velocities, and the
+  distance does not grow.
+- A block is released: during the time `gap` between the two releases, one run slides
+  against mu_k w and the other is held by at most mu_s w. |e|^2 grows by at most ((mu_s -
+  mu_k) w gap)^2. Only releases drive runs apart.
+- While all blocks rest, the next release depends on the forces alone. Each run is then
+  compared at its own onset, where T_1 = T_2 + mu_s w_1, and the distance grows at most
+  by the factor sqrt(1 + c_2 / c_1).
 
-At a transition the centre is given its exact condition (u = 0, or F = +-mu_s w); the
-other runs have theirs within +-gap of it. Afterwards a run that is late is continued
-backwards, in its new modes, to the instant of the centre; a run that is early has its
-new modes before that instant. So event functions are proved from -gap on.
+At a transition the centre is moved onto the exact condition (u = 0, or F = +-mu_s w).
+The other runs fulfil it within +-gap of that instant. A late run is continued backward
+in its new modes to the instant of the centre; an early run has its new modes before
+that instant. Event functions are therefore proved from -gap on.
 """
 
 from fractions import Fraction
@@ -55,14 +55,15 @@ from precursors.proof.motion import (
 )
 from precursors.support.waiting import bar
 
-# Rounding is kept so many bits below the distance that the runs have come to.
+# Rounding stays this many bits below the distance of the runs.
 GUARD_BITS = 40
-# Precisions are a multiple of this, for which constants are kept.
+# Precisions are multiples of this, so that constants can be reused.
 PRECISION_STEP = 32
 
 
 class Proved(NamedTuple):
-    """A transition in balls; units and `slope` are those of `CertifiedTransition`."""
+    """A proved transition in balls, with the units and the `slope` of
+    `CertifiedTransition`."""
 
     time: arb
     block: int
@@ -93,8 +94,8 @@ class Proof:
             )
         with ctx.workprec(BOUND_BITS):
             self.bounds = self.constants()
-        # how far the runs may be ahead or behind at the last transition [T], and who
-        # has just begun to slide
+        # Largest time by which a run is ahead or behind at the last transition [T], and
+        # the blocks that have just begun to slide.
         self.gap = arb(0)
         self.fresh = {
             i
@@ -106,8 +107,10 @@ class Proof:
     def at_start(
         self, positions: tuple[Fraction, ...], velocities: tuple[Fraction, ...]
     ) -> EnclosedState:
-        """Given positions and velocities; a block slides that moves, or is beyond its
-        strength."""
+        """Return the state for given positions and velocities.
+
+        A block slides if it moves or if its net force exceeds its strength.
+        """
         chain = self.chain
         compressions = (a - b for a, b in pairwise((Fraction(0), *positions)))
         exact = bordered(map(mul, chain.springs, compressions))
@@ -132,14 +135,14 @@ class Proof:
         return state
 
     def free_neighbours(self, state: EnclosedState) -> None:
-        """Let blocks without load move once one beside them does."""
+        """Let a block without load move once a neighbour moves."""
         blocks = range(1, self.chain.n_blocks + 1)
         for i in (*blocks, *reversed(blocks)):
             if self.chain.weights[i - 1] == 0 and any(state.mode[i - 1 : i + 2]):
                 state.mode[i] = FREE
 
     def constants(self) -> Constants:
-        """The chain in balls of the working precision."""
+        """Return the chain in balls of the working precision."""
         if ctx.prec not in self._constants:
             self._constants[ctx.prec] = Constants.of(self.chain, self.unit_seconds)
         return self._constants[ctx.prec]
@@ -150,16 +153,16 @@ class Proof:
         Raises
         ------
         Undecided
-            Where the precision does not suffice or there is a tie, with the time in s;
-            `transitions` are those that are proved.
+            If the precision is too low or there is a tie. Its time is in s, and
+            `transitions` has what is proved.
         """
-        with bar("proving", float(self.duration.mid())) as told:
+        with bar("proving", float(self.duration.mid())) as progress:
             while self.step():
-                told.update(float(self.clock.mid()) - told.n)
+                progress.update(float(self.clock.mid()) - progress.n)
         return self.transitions
 
     def step(self) -> bool:
-        """Prove the next transition; False where the run ends."""
+        """Prove the next step; return False at the end of the run."""
         slides = [*compress(self.state.mode[1:-1], self.bears_load)]
         self.all_slid = self.all_slid or all(slides)
         if not any(slides):
@@ -174,8 +177,8 @@ class Proof:
             raise
 
     def load(self) -> bool:
-        """Load the resting chain until block 1 is released: no other block feels the
-        drive."""
+        """Load the resting chain until block 1, the only one that the drive pushes, is
+        released."""
         state = self.state
         with ctx.workprec(self.precision()):
             constants = self.constants()
@@ -201,14 +204,14 @@ class Proof:
         return self.record(1, slope)
 
     def slide(self) -> bool:
-        """Advance to the first transition, but by one window at most."""
+        """Advance to the next transition, but at most by one window."""
         first = self.first_transition()
         if first is None:
             return self.advance_window(WINDOW)
         event, root = first
         if root.upper() > WINDOW:
-            # The others are proved up to the end of the window only: stop short of the
-            # root, which is there.
+            # The other functions are only proved up to the end of the window, where
+            # this root is: stop before it.
             return self.advance_window(WINDOW / 2)
         steepness = self.change(event, root)
         # u = m v / T, so that the rate of a velocity is that of u [N/T] over the mass.
@@ -216,7 +219,7 @@ class Proof:
         return self.record(event.block, steepness / unit)
 
     def first_transition(self) -> tuple[EventFunction, arb] | None:
-        """Find the first root of all event functions, at a low precision that is raised
+        """Return the first root of all event functions, with a precision that is raised
         until it suffices."""
         bits = BOUND_BITS
         while True:
@@ -242,9 +245,9 @@ class Proof:
             return not self.clock > self.duration
 
     def change(self, event: EventFunction, root: arb) -> arb:
-        """Advance to the root of an event function and let its block change its state.
+        """Advance to the root of an event function and change the state of its block.
 
-        Return the least slope of the function, downwards [N/T], in every run.
+        Return the least downward slope of the function [N/T] in any run.
         """
         state = self.state
         i = event.block
@@ -264,7 +267,7 @@ class Proof:
             forces = list(state.force)
             rates = list(state.rate)
             if event.direction:
-                # F = +-mu_s w: the spring behind takes up what is missing.
+                # F = +-mu_s w: adjust the spring behind the block.
                 required = event.direction * constants.strength[i] + forces[i + 1]
                 state.distance += (
                     required - forces[i]
@@ -291,7 +294,7 @@ class Proof:
         return steepness
 
     def release(self, i: int, way: int) -> None:
-        """Let the stuck block i slide: the only transition that drives runs apart."""
+        """Let the stuck block i slide in direction `way`; only this drives runs apart."""
         state = self.state
         bounds = self.bounds
         excess = (
@@ -307,8 +310,8 @@ class Proof:
         self.fresh = {i}
 
     def stop(self, i: int) -> None:
-        """Let block i, whose velocity has reached zero, stick if friction holds it, or
-        else turn round."""
+        """Let block i, whose velocity is zero, stick if friction can hold it, or else turn
+        round."""
         state = self.state
         bounds = self.bounds
         spread = state.distance * bounds.force_reach[i] + state.largest_force_change(
@@ -327,8 +330,8 @@ class Proof:
             raise Undecided(question, (i,), arb(0, self.gap))
 
     def record(self, i: int, slope: arb) -> bool:
-        """Note the transition of block i, just made; return whether it lies within the
-        duration."""
+        """Record the transition that block i has just made; return False if it is after
+        the duration."""
         state = self.state
         with ctx.workprec(self.bits + GUARD_BITS):
             time = self.clock + self.unit * arb(0, self.gap)
@@ -350,8 +353,8 @@ class Proof:
         return True
 
     def precision(self) -> int:
-        """Bits that keep rounding well below the distance, which grows as the run goes
-        on."""
+        """Return the bits that keep rounding well below the distance, which grows during
+        the run."""
         largest = max(
             log2(x)
             for x in (
