@@ -54,7 +54,7 @@ def test_a_table_whose_beginnings_are_made_alike_is_handed_on(published):
     assert b"line 3, load = even, n_blocks = 40" in comparison
     assert (
         agreement(found())
-        == "3 of 3 numbers of 1 committed tables were made again alike"
+        == "3 numbers of 1 committed tables were made again, and all agree"
     )
     (origin,) = pd.read_csv(provenance).to_dict("records")
     digest = hashlib.sha256(table.read_bytes()).hexdigest()

@@ -34,10 +34,8 @@ def test_the_article_makes_every_committed_table(workspace):
 
 
 def test_settings_of_ones_own_are_run_and_the_article_is_left_out(workspace):
-    (workspace.path / "own.yaml").write_text("resolution: {seed: 1}\n")
-    outcome = workspace.run(
-        "-n", "--configfile", "config.yaml", "own.yaml", "--", "all"
-    )
+    workspace.edit("config.yaml", "", "\nresolution: {seed: 1}\n")
+    outcome = workspace.run("-n", "all")
     assert outcome.code == 0, outcome.text
     assert "run_resolution" in outcome.jobs
     assert not {"check_resolution", "check_balance", "write_paper"} & outcome.jobs

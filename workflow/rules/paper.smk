@@ -72,7 +72,7 @@ rule write_paper:
             if any(rule.is_producer(path) for rule in workflow.rules)
         ],
         main=PAPER_SOURCE / "{document}.typ",
-        source=sorted(path for path in PAPER_SOURCE.rglob("*.*") if path.suffix != ".pdf"),
+        source=sorted(path for path in PAPER_SOURCE.glob("*.*") if path.suffix != ".pdf"),
         about=ROOT / "CITATION.cff",
     output:
         "results/{document}.pdf",

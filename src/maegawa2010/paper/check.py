@@ -51,7 +51,7 @@ def check(results: Path, expected: AnyPath) -> tuple[str, list[str]]:
     wrong = differences(claims, read_table(expected))
     text = in_words(claims)
     if again:
-        text += f"\n\nCommitted tables: {agreement(pd.concat(again.values()))}."
+        text += f"\n\n{agreement(pd.concat(again.values()))}"
     if made:
         newer, changed = changes(results, path.stat().st_mtime, made["outputs"])
         if newer:

@@ -205,7 +205,7 @@ def friction_independent_of_loading(t: Tables) -> Finding:
     largest = fine["difference"].abs().groupby(fine["n_blocks"]).max()
     note = f"The largest with {', '.join(map(str, largest.index))} blocks."
     if "committed_resolution" in t:
-        note += f" Of a committed study: {agreement(t['committed_resolution'])}."
+        note += f" The study is committed: {agreement(t['committed_resolution'])}."
     return Finding(largest, all_same(fine), note=note)
 
 

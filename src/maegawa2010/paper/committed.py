@@ -114,7 +114,8 @@ def agreement(found: pd.DataFrame) -> str:
     """How many numbers of committed tables were made again and agree, in words."""
     n, agree = len(found), int(found["agrees"].sum())
     tables = found["table"].nunique()
-    return f"{agree} of {n} numbers of {tables} committed tables were made again alike"
+    verdict = "all agree" if agree == n else f"{n - agree} differ"
+    return f"{n} numbers of {tables} committed tables were made again, and {verdict}"
 
 
 def comparisons(tables: str | Path) -> dict[str, pd.DataFrame]:
