@@ -134,7 +134,7 @@ def test_audit_that_takes_too_much_work_reports_where_it_ends(uniform, monkeypat
     audit(simulate(uniform.chain, 0.35 + 1e-3)).raise_if_failed()
     report = audit(simulate(replace(uniform.chain, drive_stiffness=1.0), 5e6))
     (problem,) = report.problems
-    assert "the audit ends here: it cannot look at " in problem
+    assert "the audit ends here: it cannot check " in problem
     assert report.is_undecided
     assert str(report).startswith("It is undecided whether the run is a motion")
     assert report.n_intervals < 100
@@ -179,7 +179,7 @@ def falsified(uniform: Run) -> Iterator[tuple[Run, str]]:
     yield shifted(uniform, 0, SHIFT), "block 1 is stuck, pushed forward beyond mu_s w"
     yield shifted(uniform, stop, SHIFT), r"block 1 slides against its mode \+1"
     yield without(uniform, stick), r"block 1 slides against its mode \+1"
-    yield changed(uniform, 0, mode=-1), "block 1 releases to -1 below the limit"
+    yield changed(uniform, 0, mode=-1), "block 1 is released to -1 below the limit"
     yield changed(uniform, stick, mode=-1), "block 2 turns round without a force beyond"
     yield changed(uniform, stick, mode=1), r"block 2 changes to mode \+1, which it alr"
     yield changed(uniform, 9, tangential_load=np.nan), "block . has nan N recorded"
@@ -187,7 +187,7 @@ def falsified(uniform: Run) -> Iterator[tuple[Run, str]]:
     yield replace(uniform, duration=4.0), "the duration is recorded 1.26 s from"
     for name, factor, words in (
         ("mass", 1 + 1e-8, "block 1 changes its mode while it moves at"),
-        ("mu_s", 1 + 1e-8, "block 1 releases to .1 below the limit"),
+        ("mu_s", 1 + 1e-8, "block 1 is released to .1 below the limit"),
         ("mu_k", 1 - 1e-9, "block 1 has .* recorded as tangential load"),
     ):
         other = {name: factor * getattr(uniform.chain, name)}
@@ -208,7 +208,7 @@ def falsified(uniform: Run) -> Iterator[tuple[Run, str]]:
     yield changed(moving, 0, mode=-1), "block 10 starts with 0.1 m/s in mode -1"
     overloaded = simulate(SLIDER(), 0.1, start_positions=np.r_[np.zeros(9), -2e-6])
     yield without(overloaded, 0), "block 9 starts stuck beyond mu_s w"
-    yield changed(overloaded, 0, block=3), "block 3 releases to -1 below the limit"
+    yield changed(overloaded, 0, block=3), "block 3 is released to -1 below the limit"
     weightless = simulate(SLIDER(theta=-1), 1.0)
     yield changed(weightless, 0, block=10), "block 10 bears no load"
     yield from falsified_states(uniform)
@@ -224,7 +224,7 @@ def falsified_states(run: Run) -> Iterator[tuple[Run, str]]:
     for name, words in [
         ("force", "state 1 has a force of block . that is wrong by .* N"),
         ("velocity", "state . has a velocity of block . that is wrong by .* m/s"),
-        ("mode", "state 0 has other modes than the blocks"),
+        ("mode", "state 0 has modes that differ from those of the blocks"),
         ("after", "the first stored state is not that of the start"),
         ("offset", "the first stored state is not that of the start"),
     ]:
@@ -293,5 +293,5 @@ def test_report_is_a_few_lines_and_refuses_a_chain(uniform):
     spoiled = audit(replace(uniform, chain=replace(uniform.chain, mu_s=0.6)))
     assert len(spoiled.problems) <= MAX_PROBLEMS
     assert str(spoiled).splitlines()[-1] == spoiled.problems[-1]
-    with pytest.raises(TypeError, match="what is audited must be a Run, but is Chain"):
+    with pytest.raises(TypeError, match="audit needs a Run, but got Chain"):
         audit(uniform.chain)

@@ -275,9 +275,9 @@ def test_ascii_terminal_can_print_a_unicode_file_name(run_file, tmp_path):
             ["--figure=curve"],
             "t [s],F_X [N]\n0,-1\n1,-2\n",
             "data.csv: 2 points, t [s] 0 to 1, F_X [N] -2 to -1\n"
-            "data.csv hardly overlaps the run: it reaches 0.01 times as high as F_X of the "
+            "data.csv hardly overlaps the run: it reaches 0.01 times the largest F_X of the "
             "run (--data-start says when the run begins, --columns the units)\n"
-            "data.csv: all of F_X is below zero: is its sign turned?\n"
+            "data.csv: all of F_X is negative: is its sign reversed?\n"
             "data.csv: 55.5 N rms from the run up to its first global slip\n",
             {"figure": "curve"},
         ),
@@ -331,11 +331,11 @@ def test_measured_loads_are_shifted_to_start_and_offset(
     [
         (
             "t [s],F_X [N]\n0,4000\n1,4500\n2,5000\n",
-            "it reaches 26 times as high as F_X of the run",
+            "it reaches 26 times the largest F_X of the run",
         ),
         (
             "t [s],F_X [N]\n4,0\n5,0.1\n",
-            "0 of its 2 times are among those of the run, and it",
+            "0 of its 2 times are within the run, and it",
         ),
     ],
 )
@@ -407,7 +407,7 @@ def test_global_slip_beyond_predictability_gives_a_note(cli):
     assert code == 0
     assert re.fullmatch(
         "the first global slip at 2.668 s is beyond predictability: "
-        r"roundings decide from 2\.[0-6]\d\d s on\n",
+        r"it depends on rounding from 2\.[0-6]\d\d s on\n",
         err,
     )
 

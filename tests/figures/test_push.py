@@ -48,7 +48,8 @@ def test_any_event_that_is_over_can_be_shown():
     (axes,) = plot(run, "push", events=[2]).axes
     assert axes.get_title().startswith("Precursor: stops after block 2,")
     with pytest.raises(
-        ValueError, match=r"must be 1 to 16, the slips that are over, but are \[2, 17\]"
+        ValueError,
+        match=r"must be 1 to 16, those that end within the run, but are \[2, 17\]",
     ):
         plot(run, "push", events=[2, 17])
     columns = [run.transitions[name] for name in run.transitions.dtype.names]

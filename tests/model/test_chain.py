@@ -102,7 +102,7 @@ def test_loads_are_read_from_numbers_of_any_type(weights):
         (
             "theta",
             1.01,
-            'theta must be a number between -1 and 1, or a fraction as "5/6", but is 1.01',
+            'theta must be a number between -1 and 1, or a fraction such as "5/6", but is 1.01',
         ),
         ("normal_load", 0.0, "normal_load must be above 0 N, but is 0.0"),
         ("mu_s", -0.1, "mu_s must be between 0 and 1e+60 [1], but is -0.1"),
@@ -116,7 +116,7 @@ def test_loads_are_read_from_numbers_of_any_type(weights):
             "drive_velocity must be one number for all blocks",
         ),
         ("drive_velocity", -1e-4, "as the drive never turns back, but is -0.0001"),
-        ("weights", [], "weights must be one number [N] a block"),
+        ("weights", [], "weights must be one number [N] per block"),
         ("weights", [1.0, -1.0], "but that of block 2 is -1.0 N"),
         ("weights", [0.0, 0.0], "above 0 N, but all are 0 N"),
         ("weights", np.ma.masked_less([1, 2], 2), "[N] without a mask, but are masked"),

@@ -51,12 +51,13 @@ def test_foreign_or_damaged_certificate_is_refused_in_one_line(small, tmp_path):
         ): "its format must be 'precursors certificate 2', but is ",
         gzip.compress(
             text.replace(b"Every run", b"No run")
-        ): "its claim is not what a certificate says",
+        ): "its claim differs from that of a certificate",
     }
     for content, why in damaged.items():
         path.write_bytes(content)
         with pytest.raises(
-            CertificateError, match=f"damaged.json.gz is not a whole certificate: {why}"
+            CertificateError,
+            match=f"damaged.json.gz is not a complete certificate: {why}",
         ) as e:
             verify(path)
         assert "\n" not in str(e.value)
@@ -77,7 +78,7 @@ SPOILED: dict[str, tuple[Callable[[CertifiedTransition], CertifiedTransition], s
     ),
     "mode": (
         lambda t: t._replace(mode=-1),
-        "block 2 goes to mode .1, which is not what is stated",
+        "block 2 goes to mode .1, which differs from the certificate",
     ),
     "slope": (
         lambda t: t._replace(slope=t.slope * Fraction(102, 100)),
@@ -95,7 +96,7 @@ def test_changed_transition_is_refused(small, spoil, words):
     ]
     with pytest.raises(
         CertificateError,
-        match=f"not what is proved with 256 bits: transition 8, .*{words}",
+        match=f"it differs from the proof with 256 bits: transition 8, .*{words}",
     ):
         verify(dataclasses.replace(small, transitions=tuple(wrong)))
 
@@ -129,7 +130,7 @@ def test_one_block_carries_the_whole_load_for_any_theta():
         (
             {"theta": "1e999999999"},
             {},
-            'theta must be a finite number, or one in quotes as "5/6", but is ',
+            'theta must be a finite number, or one in quotes such as "5/6", but is ',
         ),
         ({}, {"duration": 0}, "duration must be above 0 s, but is 0 s"),
         (

@@ -303,6 +303,6 @@ def test_block_1_is_released_at_the_rate_of_the_drive():
 
 def test_too_few_bits_are_an_error_and_not_a_tie():
     with pytest.raises(
-        CertificateError, match="max_bits = 128 do not suffice beyond t = "
+        CertificateError, match="max_bits = 128 are too few beyond t = "
     ):
         certify(ExactChain.from_slider(), 3, max_bits=128)

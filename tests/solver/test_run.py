@@ -256,7 +256,7 @@ def test_dataset_longer_than_its_file_is_refused(path):
     with h5py.File(path, "r+") as file:
         del file["intervals"]
         file.create_dataset("intervals", (10**13,), "f8", chunks=True)
-    with pytest.raises(RunFileError, match="intervals is not stored whole"):
+    with pytest.raises(RunFileError, match="intervals is incomplete"):
         Run.load(path)
 
 

@@ -111,9 +111,7 @@ def test_chains_may_be_a_generator_and_others_are_refused():
     chain = SLIDER()
     assert simulate_many([]) == []
     assert len(simulate_many(chain for _ in range(3))) == 3
-    with pytest.raises(TypeError, match="must be a list of chains, but is a Chain"):
+    with pytest.raises(TypeError, match="needs a list of chains, but got a Chain"):
         simulate_many(chain, 0.5)
-    with pytest.raises(
-        TypeError, match=r"^what is simulated must be a Chain, but is i"
-    ):
+    with pytest.raises(TypeError, match=r"^simulate needs a Chain, but got i"):
         simulate_many([chain, 5])

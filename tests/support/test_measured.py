@@ -104,7 +104,11 @@ def test_columns_are_read_by_name_and_unit_or_chosen(file, text, how):
             "'F_X [V]' needs one of these units in brackets: N",
         ),
         ("t [s],F_X N\n0,1\n", {}, "no column is F_X [N]"),
-        (HEADER, {}, "'Tester 3000' is no name of a column: if line 3 has the names"),
+        (
+            HEADER,
+            {},
+            "'Tester 3000' is not the name of a column: if line 3 has the names",
+        ),
         ("0,1\n0.5,2\n", {}, "line 1: '0' is no name"),
         ("t [s],F_X [N]\n0,0\n1,9\n0.2,1\n", {}, "line 4: t [s] must rise, but 0.2"),
         ("t [s];F_X [N]\n0,5;1.018\n", {}, "decimal commas and decimal points"),

@@ -30,7 +30,7 @@ def load_curve(run: Record) -> tuple[FloatArray, FloatArray]:
     `MOST_POINTS`, the points keep its appearance only.
     """
     if not isinstance(run, Run):
-        raise TypeError(f"a load curve needs a Run, but this is {type(run).__name__}")
+        raise TypeError(f"load_curve needs a Run, but got {type(run).__name__}")
     of_first = run.transitions[run.transitions["block"] == 1]
     slides = np.append(run.chain.weights[0] == 0.0, of_first["mode"] != 0)
     edges = np.concatenate([[0.0], of_first["time"], [run.duration]])

@@ -36,7 +36,7 @@ are long compared with the period of the fastest vibration need more."""
 def audit_run(run: Run, roundings: float) -> Audit:
     """Audit a run (see `precursors.audit`)."""
     if not isinstance(run, Run):
-        raise TypeError(f"what is audited must be a Run, but is {type(run).__name__}")
+        raise TypeError(f"audit needs a Run, but got {type(run).__name__}")
     positive("roundings", roundings, "1")
     if problem := _find_malformed(run):
         return Audit(problems=[problem])
@@ -124,7 +124,7 @@ class Auditor:
             self.result.is_undecided = not self.result.problems
             radians = duration * modes.frequencies.max(initial=0.0)
             self.report(
-                f"the audit ends here: it cannot look at {duration:.3g} s of "
+                f"the audit ends here: it cannot check {duration:.3g} s of "
                 f"sliding, {radians:.3g} radians of the fastest mode"
             )
             return False
@@ -140,7 +140,9 @@ class Auditor:
         state = self.state
         stored = self.run.states
         if (stored.mode[row] != state.mode).any():
-            self.report(f"stored state {row} has other modes than the blocks")
+            self.report(
+                f"stored state {row} has modes that differ from those of the blocks"
+            )
         per_speed = np.full(len(state.velocity), 1.0 / math.sqrt(state.mass))
         for what, unit, wrong, per in (
             (
@@ -199,10 +201,12 @@ class Auditor:
                     f"block {block} starts with {velocity:.6g} m/s in mode {mode:+d}"
                 )
         else:
-            self.check_force(block, f"releases to {mode:+d} below the limit", -excess)
+            self.check_force(
+                block, f"is released to {mode:+d} below the limit", -excess
+            )
             if not at_start:
                 self.check_force(
-                    block, f"releases to {mode:+d} beyond the limit", excess
+                    block, f"is released to {mode:+d} beyond the limit", excess
                 )
 
     def check_stop(self, block: int, mode: int) -> None:

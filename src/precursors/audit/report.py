@@ -38,6 +38,6 @@ class Audit:
             answer = "It is undecided whether the run is a motion of the model"
         summary = (
             f"{answer}: {self.n_intervals} intervals audited, "
-            f"{self.roundings:.1f} roundings off at most."
+            f"largest deviation {self.roundings:.1f} roundings."
         )
         return "\n".join([summary, *self.problems])

@@ -285,8 +285,8 @@ def warn_of_limits(run: Record, first_global_slip: float) -> None:
     known = predicted_errors(up_to_slip).order_known_until
     if known < first_global_slip:
         note(
-            f"the first global slip at {first_global_slip:.3f} s is beyond predictability: roundings "
-            f"decide from {known:.3f} s on"
+            f"the first global slip at {first_global_slip:.3f} s is beyond predictability: "
+            f"it depends on rounding from {known:.3f} s on"
         )
 
 

@@ -63,18 +63,18 @@ def warn_of_mismatch(
     inside = ((times >= 0) & (times <= run.duration)).sum()
     apart = []
     if inside < LEAST_OVERLAP * len(times):
-        apart.append(f"{inside} of its {len(times)} times are among those of the run")
+        apart.append(f"{inside} of its {len(times)} times are within the run")
     if LOAD in data:
         reach = np.abs(data[LOAD]).max() / slip_table(run)["largest_load_N"].max()
         if reach <= LEAST_OVERLAP or reach >= 1 / LEAST_OVERLAP:
-            apart.append(f"it reaches {reach:.2g} times as high as F_X of the run")
+            apart.append(f"it reaches {reach:.2g} times the largest F_X of the run")
     if apart:
         note(
             f"{path} hardly overlaps the run: {', and '.join(apart)} (--data-start says "
             "when the run begins, --columns the units)"
         )
     if LOAD in data and data[LOAD].max() < 0:
-        note(f"{path}: all of F_X is below zero: is its sign turned?")
+        note(f"{path}: all of F_X is negative: is its sign reversed?")
 
 
 def check_choices(arguments: Namespace) -> None:

@@ -83,7 +83,7 @@ def _chosen(slips: pd.DataFrame, events: Sequence[int]) -> pd.DataFrame:
     rows = np.subtract(events, 1)
     if not set(rows) <= set(over.index):
         raise ValueError(
-            f"events must be 1 to {len(over)}, the slips that are over, but are {events}"
+            f"events must be 1 to {len(over)}, those that end within the run, but are {events}"
         )
     return over.loc[rows]
 

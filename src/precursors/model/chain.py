@@ -323,7 +323,7 @@ def parse_theta(theta: float | str) -> float:
         if abs(value) <= 1:
             return value
     raise ValueError(
-        f'theta must be a number between -1 and 1, or a fraction as "5/6", but is {theta!r}'
+        f'theta must be a number between -1 and 1, or a fraction such as "5/6", but is {theta!r}'
     )
 
 
@@ -361,7 +361,7 @@ def _weights(values: ArrayLike) -> FloatArray:
     weights = block_array("weights", values, "N")
     if weights.ndim != 1 or not 1 <= weights.size <= MOST_BLOCKS:
         raise ValueError(
-            f"weights must be one number [N] a block, at most {MOST_BLOCKS}, but have shape {weights.shape}"
+            f"weights must be one number [N] per block, at most {MOST_BLOCKS}, but have shape {weights.shape}"
         )
     for i in np.flatnonzero(
         ~((weights == 0) | ((weights >= SMALLEST) & (weights <= LARGEST)))

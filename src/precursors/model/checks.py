@@ -51,7 +51,7 @@ def number_array(name: str, values: Any, unit: str) -> NDArray[np.float64]:
     elif hasattr(values, "units") or hasattr(values, "unit"):
         raise ValueError(
             f"{wanted} without a unit of their own, but are {_shown(values)}: "
-            "convert them, and hand over their magnitude"
+            "convert them, and pass their magnitude"
         )
     elif np.ma.isMaskedArray(values):
         raise ValueError(f"{wanted} without a mask, but are {_shown(values)}")

@@ -151,12 +151,12 @@ class Certificate:
             again = json.loads(json.dumps(_content(certificate)))
             for name in sorted(content.keys() | again.keys()):
                 if content.get(name) != again.get(name):
-                    raise ValueError(f"its {name} is not what a certificate says")
+                    raise ValueError(f"its {name} differs from that of a certificate")
             return certificate
         except Exception as error:  # the file may contain anything
             why = str(error) or type(error).__name__
             raise CertificateError(
-                f"{path} is not a whole certificate: {why}"
+                f"{path} is not a complete certificate: {why}"
             ) from error
 
 

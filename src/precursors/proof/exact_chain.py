@@ -143,7 +143,7 @@ def exact(name: str, value: object) -> Fraction:
     except (ValueError, ZeroDivisionError):
         pass
     raise ValueError(
-        f'{name} must be a finite number, or one in quotes as "5/6", but is {value!r}'
+        f'{name} must be a finite number, or one in quotes such as "5/6", but is {value!r}'
     )
 
 

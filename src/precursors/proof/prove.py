@@ -91,9 +91,7 @@ def certify(
     """
     exact_chain = ExactChain.from_chain(chain) if isinstance(chain, Chain) else chain
     if not isinstance(exact_chain, ExactChain):
-        raise TypeError(
-            f"what is proved must be a chain, but is {type(chain).__name__}"
-        )
+        raise TypeError(f"certify needs a chain, but got {type(chain).__name__}")
     limit = exact("duration", duration)
     widest = exact("width", width)
     for name, value in (("duration", limit), ("width", widest)):
@@ -116,7 +114,7 @@ def certify(
         bits = min(2 * bits, max_bits)
     if failure and 2 * _fraction(failure.time.rad()) > widest:
         raise CertificateError(
-            f"max_bits = {max_bits} do not suffice beyond t = {float(failure.time):.9g} s of "
+            f"max_bits = {max_bits} are too few beyond t = {float(failure.time):.9g} s of "
             f"{float(limit):g} s ({failure.question}): allow more, or prove a shorter duration"
         )
     tie = _tie(failure) if failure else None
@@ -152,7 +150,7 @@ def verify(certificate: Certificate | AnyPath) -> Certificate:
         certificate = Certificate.load(certificate)
     for difference in _differences(certificate):
         raise CertificateError(
-            f"not what is proved with {certificate.bits} bits: {difference}"
+            f"it differs from the proof with {certificate.bits} bits: {difference}"
         )
     return certificate
 
@@ -195,7 +193,8 @@ def _differences(certificate: Certificate) -> Iterator[str]:
     ):
         where = f"transition {number}, t = {float(proved.time):.9g} s"
         if (stated.block, stated.mode) != (proved.block, proved.mode):
-            yield f"{where}: block {proved.block} goes to mode {proved.mode:+d}, which is not what is stated"
+            change = f"block {proved.block} goes to mode {proved.mode:+d}"
+            yield f"{where}: {change}, which differs from the certificate"
         if not stated.time.contains(_enclosure_of(proved.time)):
             yield f"{where}: its time is not proved within {float(stated.time.radius):.3g} s"
         if not stated.tangential_load.contains(_enclosure_of(proved.tangential_load)):

@@ -162,7 +162,7 @@ def _unfinished(run: Run, end: kernel.End) -> TransitionLimitError:
             run,
         )
     return TransitionLimitError(
-        f"{end.most_windows:g} steps made {where}, as blocks slide nearly all the time: shorten duration",
+        f"{end.most_windows:g} steps made {where}, and blocks slide nearly all the time: shorten duration",
         run,
     )
 

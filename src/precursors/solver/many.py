@@ -60,9 +60,7 @@ def simulate_many(
         If one of them meets a limit of `simulate`.
     """
     if isinstance(chains, Chain):
-        raise TypeError(
-            "what simulate_many runs must be a list of chains, but is a Chain"
-        )
+        raise TypeError("simulate_many needs a list of chains, but got a Chain")
     chains = list(chains)
     end = checked_end(chains, duration, until, None)
     threads = (

@@ -138,6 +138,6 @@ def find_range_error(arrays: Mapping[str, NDArray[Any]]) -> str:
     for row in np.flatnonzero(is_wrong)[:1]:
         return (
             f"stored state {row}, {offset[row]:.6g} s after transition {after[row]}, "
-            "is at no such time or has no such mode"
+            "has an impossible time or mode"
         )
     return ""

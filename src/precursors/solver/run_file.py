@@ -176,7 +176,7 @@ def _attributes(of: h5py.HLObject) -> dict[str, Any]:
     for name in of.attrs:
         stored = of.attrs.get_id(name)
         if stored.shape != () or stored.dtype.kind not in "Siuf":
-            raise ValueError(f"its attribute {name} is no number or text")
+            raise ValueError(f"its attribute {name} is not a number or text")
     return dict(of.attrs)
 
 
@@ -198,7 +198,7 @@ def _datasets(group: h5py.Group, path: str = "") -> dict[str, h5py.Dataset]:
         elif item.is_virtual or item.external:
             raise ValueError(f"{name} is stored in another file")
         elif item.nbytes > MOST_COMPRESSED * item.id.get_storage_size():
-            raise ValueError(f"{name} is not stored whole")
+            raise ValueError(f"{name} is incomplete")
         else:
             attributes = {"unit": DATASETS[name].unit.encode()}
             datasets[name] = item
@@ -210,5 +210,5 @@ def _datasets(group: h5py.Group, path: str = "") -> dict[str, h5py.Dataset]:
 def _check_names(kind: str, given: Iterable[str], wanted: Iterable[str]) -> None:
     """Refuse names that are missing or unknown."""
     for name in sorted(set(given) ^ set(wanted)):
-        what = "missing" if name in wanted else "not one of a run"
+        what = "missing" if name in wanted else "unknown"
         raise ValueError(f"its {kind} {name} is {what}")

@@ -82,9 +82,7 @@ def checked_end(
     """Check the chains, and return where their runs end."""
     for chain in chains:
         if not isinstance(chain, Chain):
-            raise TypeError(
-                f"what is simulated must be a Chain, but is {type(chain).__name__}"
-            )
+            raise TypeError(f"simulate needs a Chain, but got {type(chain).__name__}")
     if most is None:
         is_long = any(chain.n_blocks > MANY_BLOCKS for chain in chains)
         most = MAX_TRANSITIONS // 10 if is_long else MAX_TRANSITIONS
@@ -104,7 +102,7 @@ def checked_start(
     start = block_array(name, values, unit)
     if start.shape != (chain.n_blocks,):
         raise ValueError(
-            f"{name} must have shape ({chain.n_blocks},), one [{unit}] a block, but have {start.shape}"
+            f"{name} must have shape ({chain.n_blocks},), one [{unit}] per block, but have {start.shape}"
         )
     if not (abs(start) <= LARGEST).all():
         raise ValueError(

@@ -161,7 +161,7 @@ class Table(NamedTuple):
         if self.separator and True in begins[1:] and not begins[0]:
             line = self.lines[begins.index(True, 1) - 1]
             raise ValueError(
-                f"{self.names[0]!r} is no name of a column: if line {line} has the names, "
+                f"{self.names[0]!r} is not the name of a column: if line {line} has the names, "
                 f"--header-line {line}"
             )
 
