@@ -74,8 +74,8 @@ def up_to_global_slip(chains: Sequence[Chain], duration: float) -> Sequence[Run]
         return simulate_many(chains, duration, "global slip", 1)
     except TransitionLimitError as limit:
         if len(chains) == 1:
-            so_far: Any = limit.run
-            return [so_far]
+            unfinished: Any = limit.run
+            return [unfinished]
         return [run for chain in chains for run in up_to_global_slip([chain], duration)]
 
 
