@@ -73,6 +73,7 @@ def test_commit_and_software_hash_identifiers_match_git(tmp_path, monkeypatch):
     assert state["changed"] is False
     (tmp_path / "Snakefile").write_text("rule all:\n")
     assert git_state(tmp_path)["changed"] is True
+    assert git_state(tmp_path, ignored="Snakefile")["changed"] is False
     for name in ("GIT_CONFIG_GLOBAL", "GIT_CONFIG_SYSTEM"):
         monkeypatch.setenv(name, os.devnull)
     monkeypatch.setenv("GIT_TEST_ASSUME_DIFFERENT_OWNER", "1")

@@ -7,7 +7,9 @@ from precursors.support.files import read_bytes, write_table, write_whole
 
 with job() as snakemake:
     inputs, outputs, params = snakemake.input, snakemake.output, snakemake.params
-    state = git_state(Path(params.root)) or {"commit": "unknown", "changed": False}
+    # Snakemake has already deleted the tables that are made here.
+    state = git_state(Path(params.root), ignored="paper/tables")
+    state = state or {"commit": "unknown", "changed": False}
     commit = f"{state['commit']}{', changed' if state['changed'] else ''}"
     for made, published in zip(inputs.tables, outputs.tables, strict=True):
         write_whole(published, read_bytes(made))

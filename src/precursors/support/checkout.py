@@ -9,9 +9,9 @@ from pathlib import Path
 COMMIT_FILE = "commit.json"  # result of `git_state` when the wheel was built
 
 
-def git_state(root: Path) -> dict[str, str | bool] | None:
+def git_state(root: Path, ignored: str = "") -> dict[str, str | bool] | None:
     """Return the commit of the sources, its identifiers, and whether files have
-    changed.
+    changed, other than those in the folder `ignored`.
 
     The software hash identifiers (SWHID) are git's own hashes. The result is None if
     git does not track the sources.
@@ -20,11 +20,12 @@ def git_state(root: Path) -> dict[str, str | bool] | None:
     if not is_known or not (hashes := _git(root, "show", "-s", "--format=%H %T")):
         return None
     commit, tree = hashes.split()
+    others = [f":(exclude){ignored}"] if ignored else []
     return {
         "commit": commit,
         "swh_revision": f"swh:1:rev:{commit}",
         "swh_directory": f"swh:1:dir:{tree}",
-        "changed": bool(_git(root, "status", "--porcelain")),
+        "changed": bool(_git(root, "status", "--porcelain", "--", ".", *others)),
     }
 
 
