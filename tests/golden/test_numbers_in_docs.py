@@ -141,7 +141,7 @@ def test_readme_has_the_findings_of_the_tables():
 
 def test_readme_has_the_numbers_of_eq_15_and_other_readings():
     page = "README.md"
-    checks = table("eq15", "case", "check")["found"]["fig10"].astype(float)
+    checks = table("eq15", "case", "check")["computed"]["fig10"].astype(float)
     assert_states(page, "faster than about {} m/s", [checks["fast"]])
     sentence = "would give {} N for {} N at theta = 0"
     assert_states(page, sentence, checks[["as_printed", "at_rest"]])

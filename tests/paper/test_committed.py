@@ -24,7 +24,7 @@ TABLE = pd.DataFrame(
 MADE = TABLE[::-1]  # rows are found by their names
 
 
-def found(made=MADE, committed=TABLE):
+def compared_with(made=MADE, committed=TABLE):
     return compared("balance_loads", committed, made, ROW, {"first": 1e-4})
 
 
@@ -49,11 +49,11 @@ def handed_on(published, comparison):
 
 def test_a_table_whose_beginnings_are_made_alike_is_handed_on(published):
     table, provenance = published
-    copy, comparison = handed_on(published, found())
+    copy, comparison = handed_on(published, compared_with())
     assert copy == table.read_bytes()
     assert b"line 3, load = even, n_blocks = 40" in comparison
     assert (
-        agreement(found())
+        agreement(compared_with())
         == "3 numbers of 1 committed tables were made again, and all agree"
     )
     (origin,) = pd.read_csv(provenance).to_dict("records")
@@ -73,17 +73,17 @@ def test_a_row_that_differs_is_named_with_both_numbers(published, number):
         r"balance_loads\.csv, line 3, load = even, n_blocks = 40: first is 0\.452, and"
     )
     with pytest.raises(ValueError, match=line):
-        handed_on(published, found(made))
+        handed_on(published, compared_with(made))
 
 
 def test_a_row_that_is_missing_is_named():
     line = "balance_loads.csv has no load = even, n_blocks = 40"
     with pytest.raises(ValueError, match=line):
-        found(committed=TABLE.drop(index=1))
+        compared_with(committed=TABLE.drop(index=1))
 
 
 def test_a_median_that_was_changed_by_hand_is_refused(published):
     table, _ = published
     table.write_text(table.read_text().replace("0.47", "0.45"))
     with pytest.raises(ValueError, match=r"loads\.csv is not as its rule made it"):
-        handed_on(published, found())
+        handed_on(published, compared_with())

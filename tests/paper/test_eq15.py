@@ -30,7 +30,7 @@ def test_the_state_of_eq_12_is_at_the_limit():
     start = eq15.maximal_strain_positions(CHAIN)
     strained = simulate(CHAIN, 0.001, start_positions=start)
     row = eq15.below_limit("fig10", strained)
-    assert row.found == pytest.approx(0.0, abs=ROUNDING)
+    assert row.computed == pytest.approx(0.0, abs=ROUNDING)
     assert not row.holds
 
 

@@ -33,7 +33,7 @@ def test_the_article_makes_every_committed_table(workspace):
     assert published == "publish"
 
 
-def test_settings_of_ones_own_are_run_and_the_article_is_left_out(workspace):
+def test_settings_of_ones_own_are_run_without_the_article(workspace):
     workspace.edit("config.yaml", "", "\nresolution: {seed: 1}\n")
     outcome = workspace.run("-n", "all")
     assert outcome.code == 0, outcome.text

@@ -30,7 +30,7 @@ if set(PAPERS_SCENES) <= set(FIG13):
         input:
             tables=collect("results/tables/{table}.csv", table=sorted({*CLAIM_TABLES, *POINT_TABLES})),
             checks=["results/tables/committed_resolution.csv"] if IS_COMMITTED else [],
-            said=[PAPERS / f"paper/{said}.csv" for said in ("claims", "open_points")],
+            texts=[PAPERS / f"paper/{name}.csv" for name in ("claims", "open_points")],
         output:
             claims=report("results/tables/claims.csv", category="Tables"),
             open_points=report("results/tables/open_points.csv", category="Tables"),

@@ -6,5 +6,5 @@ from precursors.support.files import read_table
 with job() as snakemake:
     inputs = snakemake.input
     tables = read_all(read_table, [*inputs.tables, *inputs.checks])
-    found = {"claims": evaluate(tables), "open_points": open_points_table(tables)}
-    write_tables(found, snakemake.output)
+    judged = {"claims": evaluate(tables), "open_points": open_points_table(tables)}
+    write_tables(judged, snakemake.output)

@@ -23,14 +23,14 @@ PAGES = ("paper.pdf", "supplement.pdf", "explorer.html", "figures")
 def main(results: str | Path) -> None:
     """Print the table of the reproduction with four digits per number, and what to
     open next."""
-    found = (
+    table = (
         read_table(Path(results, "tables/reproduction.csv"))
         .rename_axis(index=None)
         .set_index("scene")
     )
-    found["quantity"] = found["quantity"].map(QUANTITIES)
+    table["quantity"] = table["quantity"].map(QUANTITIES)
     print(
-        found.to_string(
+        table.to_string(
             float_format="{:.4g}".format, na_rep="-", justify="left", index_names=False
         )
     )

@@ -7,5 +7,5 @@ from precursors.support.files import write_text
 
 with job() as snakemake:
     output = Path(snakemake.output.json)
-    found = provenance(snakemake.config, Path(snakemake.params.root), output.parent)
-    write_text(output, json.dumps(found, indent=1))
+    record = provenance(snakemake.config, Path(snakemake.params.root), output.parent)
+    write_text(output, json.dumps(record, indent=1))

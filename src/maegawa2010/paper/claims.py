@@ -322,16 +322,16 @@ def evaluate(tables: Tables) -> pd.DataFrame:
     if missing := set(stated["claim"]) - set(FINDINGS):
         raise ValueError(f"claim {min(missing)}: it has no function in claims.py")
     return pd.DataFrame(
-        judged(said, FINDINGS[said["claim"]], tables)
-        for said in stated.to_dict("records")
+        judged(claim, FINDINGS[claim["claim"]], tables)
+        for claim in stated.to_dict("records")
     )
 
 
-def differences(found: pd.DataFrame, expected: pd.DataFrame) -> list[str]:
+def differences(claims: pd.DataFrame, expected: pd.DataFrame) -> list[str]:
     """Say in a line each which claims have another verdict than expected, or none."""
     new, old = (
         dict(zip(table["claim"], table["verdict"], strict=True))
-        for table in (found, expected)
+        for table in (claims, expected)
     )
     return [
         f"{name}: is {new.get(name, 'missing')}, expected {old.get(name, 'none')}"

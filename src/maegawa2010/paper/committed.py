@@ -67,7 +67,7 @@ def row_name(values: Mapping[Any, Any]) -> str:
 
 
 def hand_on(
-    found: pd.DataFrame, committed: Iterable[str], provenance: str, output: Any
+    comparison: pd.DataFrame, committed: Iterable[str], provenance: str, output: Any
 ) -> None:
     """Copy committed tables to the outputs of their names, and write the comparison.
 
@@ -76,7 +76,7 @@ def hand_on(
     ValueError
         In one line: a row that differs, or a table that is not as its rule made it.
     """
-    for wrong in found[~found["agrees"]].itertuples():
+    for wrong in comparison[~comparison["agrees"]].itertuples():
         raise ValueError(
             f"paper/tables/{wrong.table}.csv, {wrong.row}: {wrong.quantity} is"
             f" {wrong.committed:.9g}, and this code gives {wrong.made:.9g}: {REMEDY}"
@@ -90,7 +90,7 @@ def hand_on(
                 " make article"
             )
         write_whole(output[path.stem], content)
-    write_table(found, output["committed"])
+    write_table(comparison, output["committed"])
 
 
 def provenance_table(
@@ -110,10 +110,10 @@ def provenance_table(
     )
 
 
-def agreement(found: pd.DataFrame) -> str:
+def agreement(comparison: pd.DataFrame) -> str:
     """How many numbers of committed tables were made again and agree, in words."""
-    n, agree = len(found), int(found["agrees"].sum())
-    tables = found["table"].nunique()
+    n, agree = len(comparison), int(comparison["agrees"].sum())
+    tables = comparison["table"].nunique()
     verdict = "all agree" if agree == n else f"{n - agree} differ"
     return f"{n} numbers of {tables} committed tables were made again, and {verdict}"
 

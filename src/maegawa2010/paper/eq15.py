@@ -59,7 +59,7 @@ STATEMENTS = {
 
 
 class Check(NamedTuple):
-    """A check: its key in STATEMENTS, the expected value, and ours (`found`).
+    """A check: its key in STATEMENTS, the expected value, and ours (`computed`).
 
     The case is a scene or a number of blocks.
     """
@@ -68,7 +68,7 @@ class Check(NamedTuple):
     case: str
     unit: str
     expected: Any
-    found: Any
+    computed: Any
     holds: bool
 
 

@@ -20,7 +20,7 @@ Pair = tuple[ArrayLike, ArrayLike]
 
 def of_check(t: Tables, check: str) -> list[float]:
     """Our value in a check of Eq. 15, for each scene."""
-    return [float(cell(t["eq15"], "found", check=check, case=s)) for s in SCENES]
+    return [float(cell(t["eq15"], "computed", check=check, case=s)) for s in SCENES]
 
 
 def eq12(t: Tables) -> Pair:

@@ -56,7 +56,7 @@ def test_few_points_of_the_curve_have_all_its_peaks():
     np.testing.assert_allclose(points["load"], exact / 400.0, atol=1e-6)
 
 
-def test_the_curve_is_grey_from_where_single_slips_are_not_predicted():
+def test_the_curve_is_grey_where_slips_are_not_predicted():
     table = balance_tables({"fig10": SLIDERS["fig10"]}, [10], 4.0)
     rows = table["balance"].assign(predictable_s=3.0)
     axes, *_ = draw(rows, table["balance_curves"]).axes

@@ -35,8 +35,8 @@ def test_the_first_runs_are_the_same_with_other_roundings():
     }
     settings = long_settings(ROOT / "workflow")["resolution"]
     study = resolution_study(scaled, CONFIG["duration"], settings)
-    found = check(there, study, noise={})
-    assert found["agrees"].all(), found[~found["agrees"]]
-    again = found.query("quantity == 'first'")
+    comparison = check(there, study, noise={})
+    assert comparison["agrees"].all(), comparison[~comparison["agrees"]]
+    again = comparison.query("quantity == 'first'")
     assert (again["made"] != again["committed"]).any()
     assert len(again) == 4 * 3 * len(settings["n_blocks"])

@@ -30,7 +30,7 @@ CALL = 2.0**-8
 SHORT_CALL = 2.0**-11
 
 
-def test_the_full_chart_has_more_values_than_the_default_one_and_the_exact_solver_comes_first():
+def test_the_full_chart_has_more_values_the_exact_solver_first():
     full, default = (charted_values(full) for full in (True, False))
     assert next(iter(full.items())) == next(iter(default.items())) == ("exact", (0.0,))
     for name in METHODS:
@@ -84,14 +84,14 @@ def test_a_row_holds_time_work_and_errors(fake):
     assert list(row.values()) == [*about, CALL, 7, CALL]
 
 
-def test_a_method_is_given_up_before_the_first_value_that_takes_too_long(fake):
+def test_a_method_stops_before_the_first_value_that_takes_long(fake):
     rows = measured(CALL, 10 * CALL, 11 * CALL, SHORT_CALL, longest=10 * CALL)
     assert [row["value"] for row in rows] == [CALL, 10 * CALL]
     assert fake.calls.count(11 * CALL) == 2  # one to warm up
     assert SHORT_CALL not in fake.calls
 
 
-def test_a_long_call_is_timed_once_and_a_short_one_is_repeated_in_each_round(fake):
+def test_long_calls_are_timed_once_and_short_ones_in_each_round(fake):
     rows = measured(CALL + SHORT_CALL, CALL, SHORT_CALL, long=CALL)
     assert [row["seconds"] for row in rows] == [CALL + SHORT_CALL, CALL, SHORT_CALL]
     repeated = 5 * round(SHORTEST / SHORT_CALL)
@@ -142,7 +142,7 @@ SETTINGS = [
         ([16.0, 15.0, 17.0], 15.0),  # all three are: the fastest of them
     ],
 )
-def test_the_fastest_setting_as_accurate_as_the_exact_is_compared(more, seconds):
+def test_the_fastest_setting_as_accurate_as_exact_is_compared(more, seconds):
     # The slower, the more accurate.
     close = [("heyoka", time, 4e-16 - 1e-18 * time, True) for time in more]
     columns = ["method", "seconds", "time_error_s", "is_right"]

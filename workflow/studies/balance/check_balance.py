@@ -8,5 +8,5 @@ from precursors.support.files import read_table
 with job() as snakemake:
     inputs, params = snakemake.input, snakemake.params
     tables = {Path(path).stem: read_table(path) for path in inputs.tables}
-    found = check(tables, params.slider, params.sliders, params.settings)
-    hand_on(found, inputs.tables, inputs.provenance, snakemake.output)
+    comparison = check(tables, params.slider, params.sliders, params.settings)
+    hand_on(comparison, inputs.tables, inputs.provenance, snakemake.output)

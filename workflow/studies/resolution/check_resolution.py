@@ -10,5 +10,5 @@ with job() as snakemake:
     tables = {Path(path).stem: read_table(path) for path in inputs.tables}
     noise = read_all(read_table, inputs.noise)
     study = resolution_study(params.sliders, params.duration, params.settings)
-    found = check(tables, study, noise)
-    hand_on(found, inputs.tables, inputs.provenance, snakemake.output)
+    comparison = check(tables, study, noise)
+    hand_on(comparison, inputs.tables, inputs.provenance, snakemake.output)

@@ -8,5 +8,5 @@ from precursors.support.files import read_table
 with job() as snakemake:
     inputs = snakemake.input
     tables = {Path(path).stem: read_table(path) for path in inputs.tables}
-    found = check(tables, read(read_table, inputs.measured))
-    hand_on(found, inputs.tables, inputs.provenance, snakemake.output)
+    comparison = check(tables, read(read_table, inputs.measured))
+    hand_on(comparison, inputs.tables, inputs.provenance, snakemake.output)

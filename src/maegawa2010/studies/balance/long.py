@@ -161,10 +161,10 @@ def loads_table(
     for load, n in product([*SHARED, *PLACES], settings["n_blocks"]):
         chains = loaded(slider, load, n, settings["runs"], seed)
         runs = up_to_global_slip(chains, SECONDS)
-        found = summarise(runs)
+        summary = summarise(runs)
         row = {"load": load, "n_blocks": n, "share": weights_of(load, n).max()}
-        row |= {"runs": len(runs), "reached": int(found["reached"].sum())}
-        row |= nine_tenths(found["mu_sapp"])
+        row |= {"runs": len(runs), "reached": int(summary["reached"].sum())}
+        row |= nine_tenths(summary["mu_sapp"])
         rows.append(row | of_load(chains[0], known_until(runs[0])))
     return pd.DataFrame(rows)
 
@@ -226,10 +226,10 @@ def check(
     of_events = {"first_events": SAME, "first_largest": CLOSE}
     near = {"first_R_J": CLOSE_R * slips["first_R_J"], "first_line_rms": CLOSE}
     friction = {"first_friction": CLOSE}
-    found = [
+    comparisons = [
         compared("balance_runs", runs, means, ["case", "varied"], counted),
         compared("balance_blocks", blocks, frictions, ["theta", "block"], friction),
         compared("balance_loads", loads, of_loads, ["load", "n_blocks"], of_events),
         compared("balance_first_slips", slips, of_slips, ["scene", "n_blocks"], near),
     ]
-    return pd.concat(found, ignore_index=True)
+    return pd.concat(comparisons, ignore_index=True)

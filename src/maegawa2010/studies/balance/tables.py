@@ -78,13 +78,13 @@ def row_of(run: Run) -> dict[str, float]:
 def mean_of(run: Run, start: float, end: float) -> Mean:
     """Mean of F_X from `start` to `end` [s], and what it consists of."""
     chain = run.chain
-    found = balance(run, start, end)
+    terms = balance(run, start, end)
     unit = chain.normal_load * chain.drive_velocity * (end - start)
     return Mean(
-        chain.mu_k + found.work / unit,
-        found.change / unit,
-        found.backward / unit,
-        found.remainder / unit,
+        chain.mu_k + terms.work / unit,
+        terms.change / unit,
+        terms.backward / unit,
+        terms.remainder / unit,
     )
 
 

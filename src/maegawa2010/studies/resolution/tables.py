@@ -76,7 +76,7 @@ def with_first(table: pd.DataFrame, study: Study) -> pd.DataFrame:
 
 def first_runs(study: Study, known_s: pd.Series | None = None) -> pd.DataFrame:
     """A row for each number of the first run with noise of each chain; known_s is given
-    by scene and n_blocks, or found."""
+    by scene and n_blocks, or comparisons."""
     rows = []
     for member in study.members.query("draw == 1").to_dict("records"):
         chain, key = chain_of(member, study.seed), (member["scene"], member["n_blocks"])
@@ -101,7 +101,7 @@ def check(
     known_s = medians.dropna(subset="first").groupby(CHAIN_OF_ROW)["known_s"].first()
     again = first_runs(study, known_s)
     tolerances = {"first": again["quantity"].map(OF_FIRST)}
-    found = [compared("resolution", medians, again, ROW, tolerances)]
+    comparisons = [compared("resolution", medians, again, ROW, tolerances)]
     q50 = medians.set_index(ROW)["q50"].rename("difference")
     pair = [*ROW, "other"]
     pairs = differences[pair]
@@ -111,17 +111,17 @@ def check(
     by_medians = pairs.assign(difference=apart)
     rounding = {"difference": ROUNDING}
     name = "resolution_differences"
-    found.append(compared(name, differences, by_medians, pair, rounding))
+    comparisons.append(compared(name, differences, by_medians, pair, rounding))
     if noise:
         own = noise["noise"]
         quantiles = dict.fromkeys(QUANTILES, WHOLE)
-        found.append(compared("resolution", medians, own, ROW, quantiles))
+        comparisons.append(compared("resolution", medians, own, ROW, quantiles))
         n_blocks = own["n_blocks"].iloc[0]
         again = noise["noise_differences"].query("quantity == 'mu_sapp'")
         again = again.assign(n_blocks=n_blocks)
         ends = dict.fromkeys(["low", "high"], WHOLE)
-        found.append(compared(name, differences, again, pair, ends))
-    return pd.concat(found, ignore_index=True)
+        comparisons.append(compared(name, differences, again, pair, ends))
+    return pd.concat(comparisons, ignore_index=True)
 
 
 def differences_by_n(members: pd.DataFrame) -> pd.DataFrame:

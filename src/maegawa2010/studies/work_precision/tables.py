@@ -103,15 +103,15 @@ def measure_methods(
             if seconds.wall <= long:
                 tasks[len(rows)] = task
             rows.append(_row(truth, METHODS[name], value, result, seconds.wall))
-    for key, found in timing.measure(tasks, rounds, SHORTEST).items():
-        rows[key]["seconds"] = found.seconds
+    for key, timed in timing.measure(tasks, rounds, SHORTEST).items():
+        rows[key]["seconds"] = timed.seconds
     return pd.DataFrame(rows)
 
 
 def _row(
     truth: Truth, method: Method, value: float, result: Result, seconds: float
 ) -> dict[str, object]:
-    found = compare(result.run, truth)
+    agreement = compare(result.run, truth)
     return {
         "method": method.name,
         "label": ROWS[method.name]["label"],
@@ -121,21 +121,21 @@ def _row(
         "value": value,
         "evaluations": result.evaluations or math.nan,
         "seconds": seconds,
-        "time_error_s": found.time_error,
-        "transitions_right": found.transitions_right,
-        "transitions_found": found.transitions_found,
-        "transitions_true": found.transitions_true,
+        "time_error_s": agreement.time_error,
+        "transitions_right": agreement.transitions_right,
+        "transitions_found": agreement.transitions_found,
+        "transitions_true": agreement.transitions_true,
     }
 
 
 def errors_of(name: str, run: Record, truth: Truth) -> Iterator[tuple[str, str, float]]:
     """Quantity, unit and value of beside_heyoka.csv: how far a run of a solver is
     right."""
-    found = compare(run, truth)
-    right = f"transitions of {name} right, of {found.transitions_true}"
-    yield right, "1", found.transitions_right
-    yield f"largest error of their times, {name}", "s", found.time_error
-    yield f"largest error of F_X at slip onsets, {name}", "N", found.load_error
+    agreement = compare(run, truth)
+    right = f"transitions of {name} right, of {agreement.transitions_true}"
+    yield right, "1", agreement.transitions_right
+    yield f"largest error of their times, {name}", "s", agreement.time_error
+    yield f"largest error of F_X at slip onsets, {name}", "N", agreement.load_error
 
 
 def truth_of(theta: str, end: str) -> Truth:
@@ -147,8 +147,8 @@ def truth_of(theta: str, end: str) -> Truth:
 def with_rightness(table: pd.DataFrame) -> pd.DataFrame:
     """With a column is_right: whether a run has all true transitions, and no other."""
     true = table["transitions_true"]
-    right, found = table["transitions_right"], table["transitions_found"]
-    return table.assign(is_right=right.eq(true) & found.eq(true))
+    right, all_of = table["transitions_right"], table["transitions_found"]
+    return table.assign(is_right=right.eq(true) & all_of.eq(true))
 
 
 def check(tables: Mapping[str, pd.DataFrame], measured: pd.DataFrame) -> pd.DataFrame:
@@ -162,7 +162,7 @@ def check(tables: Mapping[str, pd.DataFrame], measured: pd.DataFrame) -> pd.Data
         "time_error_s": RELATIVE * right["time_error_s"] + ROUNDING_S,
     }
     speed = with_rightness(speed)
-    found = [
+    comparisons = [
         compared("speed", speed, known, row, {"is_right": 0.0}),
         compared("speed", speed, right, row, close),
     ]
@@ -178,5 +178,5 @@ def check(tables: Mapping[str, pd.DataFrame], measured: pd.DataFrame) -> pd.Data
             tolerance = {"tolerance": of_unit[unit]}
             exact.append(label | {"quantity": quantity, "value": value} | tolerance)
     tolerances = {"value": [one["tolerance"] for one in exact]}
-    found.append(compared("beside_heyoka", beside, exact, row, tolerances))
-    return pd.concat(found, ignore_index=True)
+    comparisons.append(compared("beside_heyoka", beside, exact, row, tolerances))
+    return pd.concat(comparisons, ignore_index=True)
