@@ -16,8 +16,9 @@ from precursors.benchmark.score import problems, solution
 from precursors.proof import Certificate, ExactChain
 
 SCENES = ["fig11", "fig10", "fig12"]
+FIGURES = ["Fig. 11", "Fig. 10", "Fig. 12"]
 THETAS = ["-5/6", "0", "+5/6"]  # of these scenes, as pages write them
-EDGES = ["trailing edge", "neither", "leading edge"]  # with more load
+EDGES = ["trailing edge", "neither edge", "leading edge"]  # with more normal load
 CHAINS = ["trailing", "uniform", "leading"]
 # Samples near a discontinuity, and exponents, differ between processors.
 DRAWS = 1.5  # [%]
@@ -90,12 +91,10 @@ def test_readme_has_the_numbers_of_the_table_of_scenes():
     page = "README.md"
     counted = reproduced("events_counted")
     friction = reproduced("mu_sapp")
-    leading = [counted[2], friction[2]]
-    assert_states(page, "{} events counted in Fig. 13; mu_sapp = {}", leading)
     onsets = reproduced("global_slip_s")
-    rows = zip(SCENES, EDGES, THETAS, counted, friction, onsets, strict=True)
-    for scene, edge, theta, n, mu_sapp, onset in rows:
-        row = f"| {scene} | {edge} | {theta} | {{}} | {{}} | 0.49 | {{}} | {{}} |"
+    rows = zip(FIGURES, EDGES, THETAS, counted, friction, onsets, strict=True)
+    for figure, edge, theta, n, mu_sapp, onset in rows:
+        row = f"| {figure} | {edge} | {theta} | {{}} | {{}} | 0.49 | {{}} | {{}} |"
         assert_states(page, row, [n, n, mu_sapp, onset])
     apart = max(abs(mu_sapp - 0.49) for mu_sapp in friction)
     assert_limits(page, {"lie within {} of its 0.49": apart})
@@ -114,63 +113,52 @@ def test_readme_has_the_findings_of_the_tables():
     ]
     assert_states(
         page,
-        "With a kinetic coefficient of {}, the mean is {} to {} of the normal load in all "
-        "our runs with {} to {} blocks, while the largest push is {} to {} of it",
-        [highest["mu_k"], *ends],
+        "In all our runs with {} to {} blocks and a kinetic coefficient of {}, the mean "
+        "push is {} to {} of the normal load, while the largest push is {} to {} of it",
+        [*ends[2:4], highest["mu_k"], *ends[:2], *ends[4:]],
     )
     weak = runs.query("varied == 'mu_k' and mu_k == 0.1")
     above = 100 * (weak["mean"] / weak["mu_k"] - 1)
     assert_states(
         page,
-        "With a coefficient of {}, blocks do slide backward, and the mean is {} to {} % "
-        "above the kinetic friction",
+        "With a kinetic coefficient of {}, blocks do slide backward, and the mean push is "
+        "{} to {} % above the kinetic friction",
         [weak["mu_k"].iloc[0], above.min(), above.max()],
     )
     counted = reproduced("events_counted")
     assert_states(page, "with {}, {} and {} events. Right: the counts", counted)
-    sentence = "{}, {} and {} % of the runs keep the count"
+    sentence = "{} and {} % of the runs keep the count at theta = -5/6 and 0, but only {} % keep"
     assert_states(page, sentence, with_the_count(counted), DRAWS)
     digits = table("digits", "question").loc["all_six"]
-    sentence = "of {} sliders with the same printed inputs, none has all six numbers"
+    sentence = (
+        "We drew {} sliders whose inputs round to the printed digits, and none of"
+    )
     assert_states(page, sentence, [digits["n"]])
     assert digits["share"] == 0
     fine = medians("mu_sapp", 320)
-    sentence = "with 320 blocks the medians under the three loadings are {} to {}."
+    sentence = "with 320 blocks the medians of mu_sapp are {} to {}, close"
     assert_states(page, sentence, [min(fine), max(fine)])
 
 
-def test_readme_has_the_numbers_of_eq_15_and_other_readings():
+def test_readme_has_the_largest_speed_of_eq_15():
     page = "README.md"
     checks = table("eq15", "case", "check")["computed"]["fig10"].astype(float)
     assert_states(page, "faster than about {} m/s", [checks["fast"]])
-    sentence = "would give {} N for {} N at theta = 0"
-    assert_states(page, sentence, checks[["as_printed", "at_rest"]])
-    readings = table("definitions").query("switching == 'static'")
-    is_each = (readings["global_slip"] == "each") & (
-        readings["changed"] == "global_slip"
-    )
-    is_printed = (readings["degree"] == "0.833") & (readings["changed"] == "degree")
-    for sentence, is_read, theta in (
-        ("theta = -5/6 would give {} events and {}", is_each, -5 / 6),
-        ("0.833, which gives {} events and {}", is_printed, 0.833),
-    ):
-        (one,) = readings[is_read & (readings["theta"] == theta)].itertuples()
-        assert_states(page, sentence, [one.events_counted, one.mu_sapp])
 
 
 def test_docs_have_the_accuracy_and_the_medians_of_the_tables():
     page = "docs/numbers.md"
     assert_states(
         page,
-        "All {}, {} and {} transitions",
+        "In 10 s there are {}, {} and {} transitions",
         table("certificates", "chain")["transitions"][CHAINS],
     )
     to_slip = worst_error("time_error_to_global_slip_s")
     assert_limits(
         page,
         {
-            "times within {} s up to the first global slip": to_slip,
-            "and {} s at 10 s": worst_error("time_error_while_agreeing_s"),
+            "at most {} s up to the first global slip, and by": to_slip,
+            "by at most {} s at 10 s": worst_error("time_error_while_agreeing_s"),
         },
     )
     assert_limits("docs/proof.md", {"times within {} s up": to_slip})
@@ -178,7 +166,7 @@ def test_docs_have_the_accuracy_and_the_medians_of_the_tables():
     exponents = lyapunov["exponent_per_s"]
     assert_states(page, "exponents are {}, {} and {} per second", exponents, EXPONENT)
     widest = [lyapunov["uncertainty_per_s"].max()]
-    assert_states(page, "at most +-{}:", widest, EXPONENT)
+    assert_states(page, "at most +-{}. Small", widest, EXPONENT)
     tenfold = [math.log(10) / exponents.max(), math.log(10) / exponents.min()]
     assert_states(page, "tenfold in {} to {} s", tenfold, EXPONENT)
     verdicts = table("resolution_differences").query("quantity == 'mu_sapp'")
@@ -186,22 +174,22 @@ def test_docs_have_the_accuracy_and_the_medians_of_the_tables():
     fine = table("resolution").query("quantity == 'mu_sapp' and n_blocks == 320")
     assert_states(
         page,
-        "are {} to {}, and nine tenths of the runs lie between {} and {};",
+        "are {} to {}, and nine tenths of the runs lie between {} and {}.",
         [fine["q50"].min(), fine["q50"].max(), fine["q05"].min(), fine["q95"].max()],
     )
     heavy = table("balance_loads", "load", "n_blocks").loc["heavy last", 320]
-    assert_states(page, "on the last of 320 blocks the median is {}.", [heavy["q50"]])
+    assert_states(page, "on the last of 320 blocks, the median is {}.", [heavy["q50"]])
     agree = verdicts["n_blocks"][verdicts["n_blocks"] > differ].min()
-    assert_states(page, "from {} blocks on", [agree])
+    assert_states(page, "From {} blocks on", [agree])
     events = [medians("events_counted", n_blocks) for n_blocks in (10, 320)]
-    sentence = "{} % more than at theta = 0 with ten blocks, and {} % more with 320"
+    sentence = "is {} % higher than at theta = 0. With 320 blocks it is {} % higher"
     assert_states(page, sentence, [100 * (far / even - 1) for _, even, far in events])
     noise = table("noise", "quantity", "scene")["q50"]["mu_sapp"][SCENES]
-    sentence = "the median of mu_sapp is {}, {} and {} (1000 runs each)"
+    sentence = "medians of mu_sapp of {}, {} and {} (1000 runs each)"
     assert_states(page, sentence, noise, NOISE)
     larger = table("noise_differences").query("quantity=='mu_sapp' and scene=='fig12'")
     ends = [larger["low"].min(), larger["high"].max()]
-    assert_states(page, "is larger by {} to {}.", ends, NOISE)
+    assert_states(page, "exceeds the other two by {} to {} (", ends, NOISE)
 
 
 def test_docs_have_the_numbers_of_other_digits():
@@ -216,12 +204,12 @@ def test_docs_have_the_numbers_of_other_digits():
     digits = table("digits", "question").assign(n=table("digits")["n"].max())
     share = 100 * digits[["share", "low", "high"]]
     assert_states(page, "We drew {} sliders", digits["n"][:1])
-    sentence = "Of these, {}, {} and {} % have mu_sapp"
+    sentence = "{}, {} and {} % of the sliders have a mu_sapp within"
     assert_states(page, sentence, near_the_papers(), DRAWS)
-    sentence = "In {} % (95 % interval: {} to {} %) the three"
+    sentence = "In {} % of the sliders (95 % interval: {} to {} %), the three"
     assert_states(page, sentence, share.loc["same_mu_sapp"], DRAWS)
-    sentence = "In none (below {} %) all six"
-    assert_states(page, sentence, [share["high"]["all_six"]], DRAWS)
+    sentence = "all six numbers of the paper (95 % interval: {} to {} %)"
+    assert_states(page, sentence, share.loc["all_six", ["low", "high"]], DRAWS)
     caption = "workflow/studies/printed_digits/caption.rst"
     assert_states(caption, "of {} sliders", digits["n"][:1])
 
