@@ -220,7 +220,9 @@ def _add_chain(command: Parser) -> None:
         type=_whole,
         action="append",
         metavar="N",
-        help="number of the line with the column names, from 1",
+        help="number of the line with the column names, from 1; with several files, give this "
+        "option and --columns once for all, or once for each: that of --weights or --profile "
+        "comes first",
     )
     add(
         "--cell-spacing",

@@ -152,7 +152,7 @@ def _content(file: h5py.File) -> dict[str, Any]:
     arrays = {name: stored[name][()] for name in datasets}
     expected = attributes.pop("checksum", None)
     if expected is not None and expected != checksum(attributes, arrays):
-        raise ValueError("its content is not that of its checksum")
+        raise ValueError("its content does not match its checksum")
     if reason := find_range_error(arrays):
         raise ValueError(reason)
     scalars = {name: attributes[name] for name in SCALARS}
