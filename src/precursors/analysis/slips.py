@@ -63,6 +63,7 @@ def slip_events_by_definition(run: Record) -> list[Slip]:
     sliding: set[int] = set()
     largest = -math.inf
     is_onset = True
+    # Interval 0 lies before the first transition.
     for (time, block, mode, load), until_next in zip(
         run.transitions, run.intervals[1:], strict=True
     ):
