@@ -15,8 +15,8 @@ from precursors import (
 from precursors.analysis.slips import (
     SLIP,
     Slip,
-    slip_events,
     slip_events_by_definition,
+    slip_rows,
 )
 
 # One product and one quotient of doubles.
@@ -68,14 +68,14 @@ def test_slip_events_follow_the_definition_for_any_transitions():
     ]
     for run in runs:
         expected = np.array(slip_events_by_definition(run), SLIP)
-        events = slip_events(run)[list(Slip._fields)]
+        events = slip_rows(run)[list(Slip._fields)]
         np.testing.assert_array_equal(events.tolist(), expected.tolist())
 
 
 def test_block_below_1e_4_of_the_mean_load_counts_as_weightless():
     run = simulate(Chain.from_slider(9), 3.0)
     none, next_to_none, light, even = (
-        slip_events(without_load(run, share))["front"].tolist()
+        slip_rows(without_load(run, share))["front"].tolist()
         for share in (0, 8e-5, 1e-4, 1)
     )
     assert none == next_to_none != light == even

@@ -416,7 +416,7 @@ def test_light_block_that_changes_the_events_gives_a_note(cli, tmp_path):
     loads = tmp_path / "loads.csv"
     loads.write_text("50\n0.006\n50\n50\n")
     err = cli("simulate", "--weights", loads, "--duration", 2)[2]
-    line = "block 2, with 0.006 N, keeps events from ending: 7 in all, 10 without it"
+    line = "block 2, with 0.006 N, keeps events from ending: 7 events, 10 without light blocks"
     assert line in err
 
 

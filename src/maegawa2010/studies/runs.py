@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from maegawa2010.studies.members import Study, chain_of
 from precursors.analysis.horizon import horizon
-from precursors.analysis.slips import slip_events, slip_table, until_global
+from precursors.analysis.slips import slip_rows, slip_table, until_global
 from precursors.analysis.summary import summarise
 from precursors.model.chain import Chain
 from precursors.solver.many import simulate_many
@@ -64,7 +64,7 @@ def numbers_of(runs: Iterable[Record]) -> pd.DataFrame:
     """Summary of each run (see `summarise`), and the growth of its precursors (see
     `speedup`)."""
     runs = list(runs)
-    return summarise(runs).assign(speedup=[speedup(slip_events(run)) for run in runs])
+    return summarise(runs).assign(speedup=[speedup(slip_rows(run)) for run in runs])
 
 
 def up_to_global_slip(chains: Sequence[Chain], duration: float) -> Sequence[Run]:
@@ -81,7 +81,7 @@ def up_to_global_slip(chains: Sequence[Chain], duration: float) -> Sequence[Run]
 
 def speedup(slips: NDArray[np.void]) -> float:
     """Growth of L_p with F_X beyond KINK L over the growth before, from the counted
-    events of `slip_events`.
+    events of `slip_rows`.
 
     The first part ends with the last event of at most KINK L before the first event of
     the whole length, which ends the second part. NaN if L_p does not grow in the first

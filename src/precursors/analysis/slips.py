@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from precursors.model.chain import Chain
 from precursors.solver.run import Record
 
-# Share of the mean load; a lighter block may go on sliding while all others stick.
+# Share of the mean load below which `describe_light_blocks` warns of a block.
 LIGHT = 0.01
 # Columns of `slip_table` that identify the slider, and the attributes of its chain.
 OF_SLIDER = {
@@ -50,12 +50,11 @@ ROW = np.dtype(
 
 
 def slip_events_by_definition(run: Record) -> list[Slip]:
-    """Return the slip events; this code defines them, and `slip_events` is faster.
+    """Return the slip events; this code defines them, and `slip_rows` is faster.
 
-    An event ends when no block slides, unless another is released at the same instant.
-    If the run ends during an event, its end and load_after are NaN. Blocks with no load
-    or almost none do not count (`Chain.bears_load`), but are assumed to slide if all
-    others do.
+    An event ends when the last sliding block stops, unless a block is released at the
+    same instant. Blocks with almost no load (`Chain.bears_load`) are ignored, but are
+    assumed to slide if all others do: at the same instant or, for n_slid, at any time.
     """
     bears_load = run.chain.bears_load
     n_blocks = len(bears_load)
@@ -63,24 +62,26 @@ def slip_events_by_definition(run: Record) -> list[Slip]:
     slips: list[Slip] = []
     sliding: set[int] = set()
     largest = -math.inf
-    goes_on = False
-    for (time, block, mode, load), pause in zip(
+    is_onset = True
+    # Interval 0 lies before the first transition.
+    for (time, block, mode, load), until_next in zip(
         run.transitions, run.intervals[1:], strict=True
     ):
-        if not mode:
+        if mode == 0:  # the block sticks
             sliding.discard(block)
         elif bears_load[block - 1]:
             sliding.add(block)
         largest = max(largest, load)
-        if not goes_on:
+        if is_onset:
             onset = (time, load, largest)
             slid: set[int] = set()
-            at_once = 0
-        goes_on = bool(sliding) or pause == 0.0
+            n_simultaneous = 0
+        else:
+            slips.pop()  # the event so far
         slid |= sliding
-        at_once = max(at_once, len(sliding))
-        is_global = at_once == n_loaded
-        so_far = Slip(
+        n_simultaneous = max(n_simultaneous, len(sliding))
+        is_global = n_simultaneous == n_loaded
+        event = Slip(
             onset_s=onset[0],
             end_s=math.nan if sliding else time,
             load_before_N=onset[1],
@@ -88,60 +89,58 @@ def slip_events_by_definition(run: Record) -> list[Slip]:
             largest_load_N=onset[2],
             front=n_blocks if is_global else max(slid, default=0),
             n_slid=n_blocks if len(slid) == n_loaded else len(slid),
-            n_simultaneous=n_blocks if is_global else at_once,
+            n_simultaneous=n_blocks if is_global else n_simultaneous,
             is_global=is_global,
         )
-        if slid and not goes_on:
-            slips.append(so_far)
-    return [*slips, so_far] if goes_on and slid else slips
+        slips.append(event)
+        is_onset = not sliding and until_next > 0.0
+    return [event for event in slips if event.n_slid > 0]
 
 
-def slip_events(run: Record) -> NDArray[np.void]:
-    """Return the rows of `slip_table` as an array.
-
-    They are the events of `slip_events_by_definition`, which takes five times as long.
-    """
+def slip_rows(run: Record) -> NDArray[np.void]:
+    """Return the rows of `slip_table` as an array."""
     time = run.transitions["time"]
     block = run.transitions["block"]
     load = run.transitions["tangential_load"]
     n_blocks = run.chain.n_blocks
     bears_load = run.chain.bears_load
     n_loaded = bears_load.sum()
-    sliding = (run.transitions["mode"] != 0) & bears_load[block - 1]
-    # Sorted by block, the row before is the block's last transition.
+    slides_after = (run.transitions["mode"] != 0) & bears_load[block - 1]
+    # In rows sorted by block, the row before has the block's previous transition.
     order = np.argsort(block, kind="stable")
-    was_sliding = np.zeros(len(block), dtype=bool)
-    was_sliding[order[1:]] = (np.diff(block[order]) == 0) & sliding[order][:-1]
-    n_sliding = np.cumsum(sliding.astype(int) - was_sliding)
+    slid_before = np.zeros(len(block), dtype=bool)
+    slid_before[order[1:]] = (np.diff(block[order]) == 0) & slides_after[order][:-1]
+    n_sliding = np.cumsum(slides_after.astype(int) - slid_before)
 
-    is_last = (n_sliding == 0) & (run.intervals[1:] > 0.0)
-    is_last[-1:] = True
-    last = np.flatnonzero(is_last)
-    first = np.append(0, last + 1)[:-1]
-    event = np.cumsum(is_last) - is_last
-    each_once = np.unique((event * (n_blocks + 1) + block)[sliding])
-    n_slid = np.bincount(each_once // (n_blocks + 1), minlength=len(last))
-    at_once = np.maximum.reduceat(n_sliding, first)
-    is_global = at_once == n_loaded
-    is_finished = n_sliding[last] == 0
+    ends_event = (n_sliding == 0) & (run.intervals[1:] > 0.0)
+    ends_event[-1:] = True  # a slice, as there may be no transitions
+    end = np.flatnonzero(ends_event)
+    onset = np.append(0, end + 1)[:-1]
+    event = np.cumsum(ends_event) - ends_event
+    # Each pair of an event and a block that slid in it, as one number.
+    pairs = np.unique((event * (n_blocks + 1) + block)[slides_after])
+    n_slid = np.bincount(pairs // (n_blocks + 1), minlength=len(end))
+    n_simultaneous = np.maximum.reduceat(n_sliding, onset)
+    is_global = n_simultaneous == n_loaded
+    is_finished = n_sliding[end] == 0
 
-    slips = np.empty(len(last), SLIP)
-    slips["onset_s"] = time[first]
-    slips["end_s"] = np.where(is_finished, time[last], np.nan)
-    slips["load_before_N"] = load[first]
-    slips["load_after_N"] = np.where(is_finished, load[last], np.nan)
-    slips["largest_load_N"] = np.maximum.accumulate(load)[first]
-    farthest = np.maximum.reduceat(sliding * block, first)
+    slips = np.empty(len(end), SLIP)
+    slips["onset_s"] = time[onset]
+    slips["end_s"] = np.where(is_finished, time[end], np.nan)
+    slips["load_before_N"] = load[onset]
+    slips["load_after_N"] = np.where(is_finished, load[end], np.nan)
+    slips["largest_load_N"] = np.maximum.accumulate(load)[onset]
+    farthest = np.maximum.reduceat(slides_after * block, onset)
     slips["front"] = np.where(is_global, n_blocks, farthest)
     slips["n_slid"] = np.where(n_slid == n_loaded, n_blocks, n_slid)
-    slips["n_simultaneous"] = np.where(is_global, n_blocks, at_once)
+    slips["n_simultaneous"] = np.where(is_global, n_blocks, n_simultaneous)
     slips["is_global"] = is_global
     return rows_of(slips[n_slid > 0], run.chain)
 
 
 def rows_of(slips: NDArray[np.void], chain: Chain) -> NDArray[np.void]:
-    """Return rows of `slip_table` (dtype ROW) for slip events of a chain (dtype
-    SLIP)."""
+    """Return slip events of a chain (dtype SLIP) as rows of `slip_table` (dtype
+    ROW)."""
     rows = np.empty(len(slips), ROW)
     for name in SLIP.names or ():
         rows[name] = slips[name]
@@ -155,12 +154,11 @@ def rows_of(slips: NDArray[np.void], chain: Chain) -> NDArray[np.void]:
 def slip_table(run: Record) -> pd.DataFrame:
     """Return all slip events of a run, with units in the names of the columns.
 
-    The columns are those of `find_slips`, whether Fig. 13 counts the event (counted),
-    and L_p (front_length_m). The others identify the slider and are the same in every
-    row: theta (NaN if unknown), n_blocks, normal_load_N (F_Z), slider_length_m (L) and
-    mu_k.
+    Next to those of `find_slips`, `counted` is true if Fig. 13 counts the event, and
+    `front_length_m` is L_p. The others identify the slider: theta (NaN if unknown),
+    n_blocks, normal_load_N (F_Z), slider_length_m (L) and mu_k.
     """
-    return pd.DataFrame(slip_events(run))
+    return pd.DataFrame(slip_rows(run))
 
 
 def find_slips(run: Record) -> pd.DataFrame:
@@ -180,12 +178,10 @@ def find_slips(run: Record) -> pd.DataFrame:
 
 
 def find_precursors(slips: pd.DataFrame) -> pd.DataFrame:
-    """Return the events of Fig. 13: those up to the first global slip that are not
-    short.
+    """Return the events that Fig. 13 counts: the precursors and the first global slip.
 
-    The global slip is included. An event is short if its front is strictly less than
-    the farthest front before it. Without a global slip, all events that are not short
-    are returned.
+    Short events are left out. An event is short if an earlier one has a farther front.
+    Without a global slip, all events that are not short are returned.
     """
     return slips[counted(slips)]
 
@@ -204,20 +200,17 @@ def until_global(is_global: ArrayLike) -> NDArray[np.bool_]:
 
 
 def describe_light_blocks(run: Record) -> str:
-    """Describe the lightest block if light blocks change the number of slip events.
-
-    Blocks are light if they bear less than `LIGHT`. The result is "" if their absence
-    changes nothing.
-    """
+    """Describe how light blocks change the number of slip events, or return ""."""
     chain = run.chain
     light = chain.bears_load & (chain.weights < LIGHT * chain.weights.mean())
-    others = replace(run, chain=replace(chain, weights=chain.weights * ~light))
-    n, without = (len(slip_events(one)) for one in (run, others))
+    # The same transitions, but blocks without load are ignored.
+    ignoring = replace(run, chain=replace(chain, weights=chain.weights * ~light))
+    n, without = (len(slip_rows(one)) for one in (run, ignoring))
     if n == without:
         return ""
     block = np.where(light, chain.weights, np.inf).argmin()
     does = "keeps events from ending" if n < without else "has events of its own"
     return (
         f"block {block + 1}, with {chain.weights[block]:.2g} N, {does}: "
-        f"{n} in all, {without} without it"
+        f"{n} events, {without} without light blocks"
     )

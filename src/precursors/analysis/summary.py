@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from precursors.analysis.slips import slip_events, until_global
+from precursors.analysis.slips import slip_rows, until_global
 from precursors.solver.run import Record
 
 
@@ -45,7 +45,7 @@ def summarise(runs: Record | Iterable[Record]) -> pd.DataFrame:
         global_slip_end_s is NaN.
     """
     runs = [runs] if isinstance(runs, Record) else list(runs)
-    rows = np.array([summary_of(slip_events(run)) for run in runs], SUMMARY)
+    rows = np.array([summary_of(slip_rows(run)) for run in runs], SUMMARY)
     transitions = np.array([len(run.transitions) for run in runs], int)
     return pd.DataFrame(rows).assign(transitions=transitions)
 
@@ -60,7 +60,7 @@ def apparent_friction(run: Record) -> float:
 
 
 def summary_of(slips: pd.DataFrame | NDArray[np.void]) -> Summary:
-    """Return the numbers of a run from its `slip_table` or `slip_events`."""
+    """Return the numbers of a run from its `slip_table` or `slip_rows`."""
     counts = Summary(
         events_to_global_slip=int(until_global(slips["is_global"]).sum()),
         events_counted=int(slips["counted"].sum()),

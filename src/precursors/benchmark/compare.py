@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from precursors.analysis.agreement import agreeing, transitions_right
-from precursors.analysis.slips import slip_events
+from precursors.analysis.slips import slip_rows
 from precursors.model.chain import Chain, FloatArray
 from precursors.solver.record import COLUMNS
 from precursors.solver.run import Record
@@ -107,7 +107,7 @@ def until_global_slip(run: Record) -> Record:
 
     The run is returned unchanged if it has no global slip or ends during it.
     """
-    slips = slip_events(run)
+    slips = slip_rows(run)
     ends = slips["end_s"][slips["is_global"]]
     end = float(ends[0]) if len(ends) else np.nan
     if np.isnan(end):
@@ -139,8 +139,8 @@ def compare(run: Record, truth: Truth) -> Comparison:
     transitions = run.transitions
     true = true_run.transitions
     n = transitions_right(run, true_run)
-    slips = slip_events(run)
-    true_slips = slip_events(true_run)
+    slips = slip_rows(run)
+    true_slips = slip_rows(true_run)
     n_slips = agreeing(slips[OUTCOME], true_slips[OUTCOME])
     onsets = np.searchsorted(true["time"], true_slips["onset_s"][:n_slips])
     loads, true_loads = (of["load_before_N"][:n_slips] for of in (slips, true_slips))

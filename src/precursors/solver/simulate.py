@@ -1,4 +1,4 @@
-"""Simulate a chain exactly: every transition between stick and slip, to rounding."""
+"""Simulate a chain: find every transition between stick and slip, exact to rounding."""
 
 from __future__ import annotations
 
@@ -22,10 +22,11 @@ from precursors.solver.run import Run
 __all__ = ["MAX_TRANSITIONS", "TransitionLimitError", "simulate"]
 
 MAX_TRANSITIONS = 10_000_000
-# Chains of more blocks have long fronts, so a transition takes ten times as long.
+# A chain of more blocks may have a tenth of the transitions: each takes about ten times
+# as long, because more blocks slide at once.
 MANY_BLOCKS = 500
-# Blocks that slide without end would keep the kernel busy forever; this limit is some
-# 10 minutes for N = 10.
+# The kernel runs in short windows of time while any block slides. If the blocks hardly
+# ever rest, this limit ends the run, for N = 10 after some 10 minutes of computing.
 MAX_WINDOWS = 1_000_000_000
 
 
@@ -64,8 +65,8 @@ def simulate(
     Raises
     ------
     TransitionLimitError
-        If the run meets this limit, or the limit of work of a chain that hardly ever
-        rests. Its attribute `run` is the motion up to there.
+        If the run reaches `max_transitions`, or takes too long because its blocks
+        hardly ever rest. The attribute `run` is the motion up to there.
     """
     end = checked_end([chain], duration, until, max_transitions)
     positions = checked_start("start_positions", start_positions, "m", chain)
@@ -77,17 +78,17 @@ def checked_end(
     chains: Sequence[Chain],
     duration: float,
     until: Until,
-    most: int | None,
+    max_transitions: int | None,
 ) -> End:
-    """Check the chains, and return where their runs end."""
+    """Check the chains and limits of their runs, and return the limits."""
     for chain in chains:
         if not isinstance(chain, Chain):
             raise TypeError(f"simulate needs a Chain, but got {type(chain).__name__}")
-    if most is None:
-        is_long = any(chain.n_blocks > MANY_BLOCKS for chain in chains)
-        most = MAX_TRANSITIONS // 10 if is_long else MAX_TRANSITIONS
+    if max_transitions is None:
+        has_many = any(chain.n_blocks > MANY_BLOCKS for chain in chains)
+        most = MAX_TRANSITIONS // 10 if has_many else MAX_TRANSITIONS
     else:
-        most = whole("max_transitions", most)
+        most = whole("max_transitions", max_transitions)
     span = checked_span(duration, until)
     return End(span, until is not None, most, MAX_WINDOWS)
 
@@ -95,8 +96,7 @@ def checked_end(
 def checked_start(
     name: str, values: ArrayLike | None, unit: str, chain: Chain
 ) -> FloatArray:
-    """Return checked positions or velocities at the start, which are zero by
-    default."""
+    """Check positions or velocities at the start, and return them, by default zero."""
     if values is None:
         return np.zeros(chain.n_blocks)
     start = block_array(name, values, unit)

@@ -20,4 +20,4 @@ rule models:
     localrule: True
 
 
-RESULTS.append(rules.models.input)
+RESULTS.append(rules.models.input)  # so that `all` makes it

@@ -1,11 +1,11 @@
 rule run_noise:
-    """Simulate one chunk of the runs with noise in the normal loads."""
+    """Simulate one chunk (such as 1of4) of the members, which are runs with noise in the normal loads."""
     output:
-        chunk="results/ensembles/noise_members/{chunk}.csv",
+        members="results/ensembles/noise_members/{chunk}.csv",
     log:
         "results/logs/run_noise/{chunk}.log",
     resources:
-        seconds=2,
+        seconds=2,  # expected run time
     params:
         sliders=SLIDERS,
         duration=config["duration"],
@@ -16,7 +16,7 @@ rule run_noise:
 
 
 rule tabulate_noise:
-    """Summarise the runs with noise."""
+    """Join the chunks, summarise the members of each scene, and compare the scenes."""
     input:
         chunks=collect("results/ensembles/noise_members/{chunk}.csv", chunk=CHUNKS),
     output:
@@ -35,9 +35,9 @@ rule tabulate_noise:
 rule noise:
     """Sensitivity to noise in the normal loads."""
     input:
-        rules.tabulate_noise.input,
+        rules.tabulate_noise.input,  # makes a deleted chunk again
         rules.tabulate_noise.output,
     localrule: True
 
 
-RESULTS.append(rules.noise.input)
+RESULTS.append(rules.noise.input)  # so that `all` makes it

@@ -1,7 +1,7 @@
 rule run_printed_digits:
-    """Simulate one chunk of the sliders with the same printed inputs."""
+    """Simulate one chunk of the members, which are sliders with the same printed inputs."""
     output:
-        chunk="results/ensembles/digits_members/{chunk}.csv",
+        members="results/ensembles/digits_members/{chunk}.csv",
     log:
         "results/logs/run_printed_digits/{chunk}.log",
     resources:
@@ -16,7 +16,7 @@ rule run_printed_digits:
 
 
 rule tabulate_printed_digits:
-    """Summarise the sliders with the same printed inputs."""
+    """Join the chunks, and count the members with the paper's numbers."""
     input:
         chunks=collect("results/ensembles/digits_members/{chunk}.csv", chunk=CHUNKS),
     output:
@@ -63,10 +63,10 @@ if IS_PAPERS:
 rule printed_digits:
     """Sensitivity to digits that the paper does not print."""
     input:
-        rules.tabulate_printed_digits.input,
+        rules.tabulate_printed_digits.input,  # makes a deleted chunk again
         rules.tabulate_printed_digits.output,
         rules.draw_printed_digits.output if IS_PAPERS else [],
     localrule: True
 
 
-RESULTS.append(rules.printed_digits.input)
+RESULTS.append(rules.printed_digits.input)  # so that `all` makes it

@@ -32,9 +32,9 @@ if IS_COMMITTED:
 else:
 
     rule run_resolution:
-        """Simulate one chunk of the runs with other numbers of blocks."""
+        """Simulate one chunk of the members, which are runs with other numbers of blocks."""
         output:
-            chunk="results/ensembles/resolution_members/{chunk}.csv",
+            members="results/ensembles/resolution_members/{chunk}.csv",
         log:
             "results/logs/run_resolution/{chunk}.log",
         resources:
@@ -48,7 +48,7 @@ else:
             "run_resolution.py"
 
     rule tabulate_resolution:
-        """Summarise the runs with other numbers of blocks."""
+        """Join the chunks, summarise the members for each number of blocks, and compare the scenes."""
         input:
             chunks=collect("results/ensembles/resolution_members/{chunk}.csv", chunk=CHUNKS),
             noise="results/tables/noise_members.csv",
@@ -105,4 +105,4 @@ rule resolution:
     localrule: True
 
 
-RESULTS.append(rules.resolution.input)
+RESULTS.append(rules.resolution.input)  # so that `all` makes it

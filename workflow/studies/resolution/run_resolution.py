@@ -5,4 +5,4 @@ from maegawa2010.support.job import job
 with job() as snakemake:
     params = snakemake.params
     study = resolution_study(params.sliders, params.duration, params.settings)
-    run_chunk(study, snakemake.wildcards.chunk, snakemake.output.chunk)
+    run_chunk(study, snakemake.wildcards.chunk, snakemake.output.members)

@@ -13,7 +13,7 @@ from maegawa2010.studies.models.quasistatic import (
     OVERDAMPED,
     quasistatic_slips,
 )
-from precursors.analysis.slips import slip_events
+from precursors.analysis.slips import slip_rows
 from precursors.analysis.summary import summary_of
 from precursors.model.chain import Chain
 from precursors.model.statics import longest_run
@@ -35,7 +35,7 @@ UNITS = {
 def exact_answers(chain: Chain) -> dict[str, Any]:
     """Answers of the paper's chain, simulated to the end of its first global slip."""
     run = simulate(chain, longest_run(chain), until="global slip")
-    slips = slip_events(run)
+    slips = slip_rows(run)
     last = slips[-1]
     duration = last["end_s"] - last["onset_s"] if last["is_global"] else np.nan
     return loading_answers(chain, slips) | {"slip_duration": duration}

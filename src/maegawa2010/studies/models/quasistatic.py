@@ -68,7 +68,7 @@ def quasistatic_slips(
     chain: Chain, overshoot: float = ENERGY_CONSERVED
 ) -> NDArray[np.void]:
     """Slip events of the quasi-static chain from rest to its first global slip, in the
-    format of `slip_events`.
+    format of `slip_rows`.
 
     Events have no duration; `n_simultaneous` is the size of the largest set that moves.
     `overshoot` is how far the blocks move beyond the balance with kinetic friction,
