@@ -10,7 +10,7 @@ from maegawa2010 import printed
 from maegawa2010.config import load_config, long_settings, read_file
 from maegawa2010.paper.inputs import SCENES as PAPERS_SCENES
 from maegawa2010.scenes import (
-    is_papers,
+    is_paper_slider,
     scene_duration,
     scene_label,
     scene_slider,
@@ -53,10 +53,10 @@ SCENES = list(config["scenes"])
 FIG13 = config["fig13"]
 MORE_FORMATS = [name for name in config["figure_formats"] if name != "svg"]
 SLIDERS = {scene: scene_slider(config, scene) for scene in FIG13}
-IS_PAPERS = is_papers(config, PAPERS_SCENES)
+IS_PAPER_SLIDER = is_paper_slider(config, PAPERS_SCENES)
 # Tables of long studies are there for the paper's slider: a full build makes them, another one hands the committed
 # ones on and checks them, unless it has a study of resolution of its own.
-HAS_LONG = IS_PAPERS and (config["full"] or "resolution" not in GIVEN)
+HAS_LONG = IS_PAPER_SLIDER and (config["full"] or "resolution" not in GIVEN)
 IS_COMMITTED = HAS_LONG and not config["full"]
 LONG_SETTINGS = long_settings(ROOT / "workflow")  # with which they were made
 PUBLISHED = {}  # rule and seed of each of these tables, in a full build

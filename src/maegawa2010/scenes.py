@@ -21,7 +21,7 @@ def scene_duration(config: Config, name: str) -> float:
     return float(config["scenes"][name].get("duration", config["duration"]))
 
 
-def is_papers(config: Config, scenes: Sequence[str]) -> bool:
+def is_paper_slider(config: Config, scenes: Sequence[str]) -> bool:
     """Whether these scenes, in the order of theta, are in Fig. 13 and have the paper's
     values."""
     return all(

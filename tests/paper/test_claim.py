@@ -13,7 +13,7 @@ from maegawa2010.paper.claim import (
     UNDECIDED,
     Finding,
     Share,
-    in_draws,
+    in_ensembles,
     judged,
 )
 from maegawa2010.paper.claims import (
@@ -49,14 +49,14 @@ def test_the_verdict_combines_the_run_and_both_ensembles(holds, noise, digits, v
     assert Finding(1.0, holds, shares=shares).verdict == verdict
 
 
-def test_draws_are_counted_and_fail_without_a_global_slip():
+def test_members_are_counted_and_fail_without_a_global_slip():
     def below_half(noise: list[float], digits: list[float]) -> Finding:
         members = [
             pd.DataFrame({"scene": "s", "draw": range(len(x)), "x": x})
             for x in (noise, digits)
         ]
         tables = dict(zip(("noise_members", "digits_members"), members, strict=True))
-        return in_draws(tables, lambda runs: runs["x"], lambda x: x < 0.5)
+        return in_ensembles(tables, lambda runs: runs["x"], lambda x: x < 0.5)
 
     finding = below_half([0.4, 0.4, 0.6], [0.4, 0.4, 0.4, NAN])
     assert finding.holds

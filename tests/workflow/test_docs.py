@@ -36,14 +36,13 @@ def blocks(section):
         yield language, named and named[1], code[named.end() :] if named else code
 
 
-CLAIM = "A claim, and a number in the paper"
+CLAIM = "A claim, and a number in the article"
 SECTIONS = (
     "A scene",
     "A study",
     "A model",
     "A method",
     CLAIM,
-    "Within another workflow",
 )
 
 
@@ -79,13 +78,13 @@ def command(section):
 def test_the_example_scene_and_study_are_built(documented):
     planned = documented.run("-n", *command("A scene"))
     assert planned.jobs == {"simulate_scene steep", "draw_scene steep"}, planned.text
-    assert "draw_durations" in documented.would_run()
+    assert "tabulate_durations" in documented.would_run()
     (documented.path / "results/tables").mkdir(parents=True)
     slips = ROOT / "tests/golden/fig10_slips.csv"
     shutil.copy(slips, documented.path / "results/tables")
     outcome = documented.run(*command("A study"))
     assert outcome.code == 0, outcome.text
-    assert (documented.path / "results/figures/durations.svg").is_file()
+    assert (documented.path / "results/tables/durations.csv").is_file()
 
 
 def test_a_study_is_removed_by_the_commands_shown(workspace):
@@ -102,11 +101,17 @@ def test_a_study_is_removed_by_the_commands_shown(workspace):
     assert "tabulate_step_sweep" not in jobs
 
 
-# Run the test of the example study, draw a chart with the example method, and print its
-# number of points, the colour of its line, and the colours of other methods.
+# Run the test of the example study and compare the example model with the chain. Draw a
+# chart with the example method, and print its number of points, the colour of its line,
+# and the colours of other methods.
 MORE = """
 from runpy import run_path
 run_path("tests/studies/durations/test_durations.py")["test_short_slips_are_left_out"]()
+from maegawa2010.studies.models.answers import MODELS
+from maegawa2010.studies.models.stepwise import stepwise_answers
+from maegawa2010.studies.models.tables import compare_models
+models = {"stepwise": stepwise_answers, "chain": MODELS["chain"]}
+assert compare_models({"uniform": {"theta": 0}}, models, rounds=1)["is_answer"].all()
 from matplotlib.colors import to_hex
 from precursors import Chain, simulate
 from precursors.benchmark.compare import Truth
@@ -123,25 +128,17 @@ print(*(row["color"] for name, row in ROWS.items() if name != "scipy_rk23"))
 """
 
 
-def test_the_example_model_and_method_print_what_docs_show(
-    documented,
-):
-    examples = [block for of in ("A model", "A method") for block in blocks(of)]
-    programs = [
-        code for language, name, code in examples if language == "python" and not name
-    ]
+def test_the_example_model_and_method_run(documented):
     done = subprocess.run(
-        [sys.executable, "-c", "\n".join([*programs, MORE])],
+        [sys.executable, "-c", MORE],
         cwd=documented.path,
         env=os.environ | {"PYTHONPATH": str(documented.path / "src")},
         capture_output=True,
         text=True,
         check=True,
     )
-    *lines, drawn, others = done.stdout.splitlines()
-    shown = "".join(code for language, _, code in examples if language == "text")
-    assert lines == shown.splitlines()
-    points, color = drawn.split()
+    line, others = done.stdout.splitlines()
+    points, color = line.split()
     assert int(points) == 2
     for sight in SIGHTS:
         assert alike({name: name for name in {color, *others.split()}}, sight) == []
@@ -176,13 +173,16 @@ def test_the_example_claim_is_evaluated_and_set_in_the_paper(
     assert page.startswith(f"At {load:.1f} N")
 
 
-def test_the_example_workflow_uses_this_one_as_a_module(documented):
-    outer = type(documented)(documented.path / "elsewhere", "../src")
-    outcome = outer.run("-c1")
+def test_the_example_workflow_uses_this_one_as_a_module(workspace):
+    example = workspace.path / "docs/examples/module.smk"
+    example.parent.mkdir(parents=True)
+    shutil.copy(DOCS / "examples" / example.name, example)
+    (elsewhere := workspace.path / "elsewhere").mkdir()
+    outcome = workspace.run(*command("Within another workflow"))
     assert outcome.code == 0, outcome.text
     assert "precursors_simulate_scene soft" in outcome.jobs
     assert float(
-        (outer.path / "first_slip.txt").read_text().split(",")[0]
+        (elsewhere / "first_slip.txt").read_text().split(",")[0]
     ) == pytest.approx(2.8)
 
 

@@ -1,5 +1,5 @@
 # The tables of long studies that the article shows, as they are committed.
-if config["full"] and IS_PAPERS:
+if config["full"] and IS_PAPER_SLIDER:
 
     rule publish:
         """Write the tables of long studies to paper/tables, with their rule, commit, seed and checksum."""

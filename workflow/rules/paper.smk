@@ -109,7 +109,7 @@ rule paper:
 
 onstart:
     if not HAS_LONG:
-        own = "study resolution" if IS_PAPERS else "slider"
+        own = "study resolution" if IS_PAPER_SLIDER else "slider"
         print(
             f"paper.pdf is not made: it describes the paper's {own}, and this is another one",
             file=sys.stderr,

@@ -14,7 +14,7 @@ from maegawa2010.paper.claim import EXPERIMENT, IN_WORDS, READINGS, RESULT
 from maegawa2010.paper.claims import differences, evaluate
 from maegawa2010.paper.committed import agreement, comparisons
 from maegawa2010.paper.inputs import CLAIM_TABLES, SCENES
-from maegawa2010.scenes import is_papers
+from maegawa2010.scenes import is_paper_slider
 from maegawa2010.support.provenance import NOT_RESULTS, checksums
 from precursors.support.files import AnyPath, read_table
 
@@ -43,7 +43,7 @@ def check(results: Path, expected: AnyPath) -> tuple[str, list[str]]:
     """
     path = results / "provenance.json"
     made = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
-    if made and not is_papers(made["config"], SCENES):
+    if made and not is_paper_slider(made["config"], SCENES):
         raise ValueError("config.yaml is not the paper's: nothing to compare")
     tables = {name: read_table(results / f"tables/{name}.csv") for name in CLAIM_TABLES}
     again = comparisons(results / "tables")

@@ -13,7 +13,7 @@ from maegawa2010.paper.tables import Tables
 from maegawa2010.support.run_statistics import share_interval
 
 # Verdicts. EXACT: the claim holds in the run with exactly the paper's inputs, but in too
-# few draws around it.
+# few members of an ensemble around it.
 HOLDS = "holds"
 EXACT = "exact"
 FAILS = "fails"
@@ -38,12 +38,12 @@ IN_WORDS = {
 # A robust claim also holds in at least this share of each ensemble.
 ENOUGH = 0.95
 # Tables of the ensembles around the run: 0.1 % of noise in the normal loads, and sliders
-# with the same printed inputs. Draw 0 is the run itself.
+# with the same printed inputs. Member 0 (column draw) is the run itself.
 ENSEMBLES = {"noise": "noise_members", "digits": "digits_members"}
 
 
 class Share(NamedTuple):
-    """A claim holds in k of the n draws of an ensemble."""
+    """A claim holds in k of the n members of an ensemble."""
 
     k: int
     n: int
@@ -54,7 +54,7 @@ class Finding:
     """Our numbers, and whether the claim holds for them.
 
     `holds` is None if it cannot be decided, for example because an interval crosses the
-    tolerance. `shares` says in how many draws of each ensemble the claim holds, and
+    tolerance. `shares` says in how many members of each ensemble the claim holds, and
     `note` is a sentence about the numbers.
     """
 
@@ -116,16 +116,15 @@ def judged(claim: Mapping[Any, str], find: Find, tables: Tables) -> dict[str, An
     }
 
 
-def in_draws(
+def in_ensembles(
     tables: Tables,
     ours: Callable[[pd.DataFrame], Any],
     holds: Callable[[pd.DataFrame], Any],
 ) -> Finding:
-    """Evaluate a claim on numbers of single runs, in the run and in the draws of both
-    ensembles.
+    """Evaluate a claim in the run and in all members of both ensembles.
 
-    `ours` computes the numbers of the claim, one row per draw, from a table of runs with
-    one row per draw and (quantity, scene) as columns. `holds` says of each number
+    `ours` computes the numbers of the claim, one row per member, from a table of runs
+    with one row per member and (quantity, scene) as columns. `holds` says of each number
     whether it agrees; NaN (no global slip) does not.
     """
     shares = {}
@@ -133,8 +132,8 @@ def in_draws(
         runs = tables[members].pivot_table(index="draw", columns="scene", dropna=False)
         numbers = ours(runs)
         agree = holds(numbers).all(axis=1)
-        drawn = agree[agree.index > 0]
-        shares[name] = Share(int(drawn.sum()), len(drawn))
+        others = agree[agree.index > 0]
+        shares[name] = Share(int(others.sum()), len(others))
     return Finding(numbers.loc[0], bool(agree.loc[0]), shares)
 
 

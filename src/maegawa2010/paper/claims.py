@@ -17,7 +17,7 @@ import pandas as pd
 import scipy
 
 from maegawa2010 import printed
-from maegawa2010.paper.claim import Find, Finding, in_draws, judged, shown
+from maegawa2010.paper.claim import Find, Finding, in_ensembles, judged, shown
 from maegawa2010.paper.committed import agreement
 from maegawa2010.paper.inputs import LEADING, SCENES, TRAILING, UNIFORM
 from maegawa2010.paper.tables import Tables, before_global, cell, rows
@@ -49,26 +49,27 @@ def of_claim(find: Find) -> Find:
     return FINDINGS.setdefault(find.__name__.replace("_", "-"), find)
 
 
-def drawn(number: str, *scenes: str) -> Callable[[Any], Any]:
-    """A number of runs in some scenes, or in all three, a row for each draw."""
-    return lambda runs: runs[number][list(scenes or SCENES)]
+def quantity(name: str, *scenes: str) -> Callable[[Any], Any]:
+    """Function that takes a quantity from a table of runs: one row for each member of an
+    ensemble, one column for each scene given, or for all three."""
+    return lambda runs: runs[name][list(scenes or SCENES)]
 
 
 def printed_count(scene: str, t: Tables) -> Finding:
     """Events of Fig. 13."""
     count = printed.SCENES[scene]["events_counted"]
-    return in_draws(
+    return in_ensembles(
         t,
-        drawn("events_counted", scene),
+        quantity("events_counted", scene),
         lambda counts: counts == count,
     )
 
 
 def printed_friction(scene: str, t: Tables) -> Finding:
     """mu_sapp."""
-    return in_draws(
+    return in_ensembles(
         t,
-        drawn("mu_sapp", scene),
+        quantity("mu_sapp", scene),
         lambda friction: (friction - printed.MU_SAPP).abs() <= printed.LAST_DIGIT,
     )
 
@@ -151,11 +152,11 @@ def length_is_linear_in_time(t: Tables) -> Finding:
 
 @of_claim
 def count_grows_with_theta(t: Tables) -> Finding:
-    """Counts of Fig. 13 from theta to theta, in each draw and by the medians of the
+    """Counts of Fig. 13 from theta to theta, in each member and by the medians of the
     noise ensemble."""
-    by_draw = in_draws(
+    by_member = in_ensembles(
         t,
-        drawn("events_counted"),
+        quantity("events_counted"),
         lambda counts: counts.diff(axis=1).iloc[:, 1:] > 0,
     )
     medians = [
@@ -163,9 +164,9 @@ def count_grows_with_theta(t: Tables) -> Finding:
         for b, a in pairwise(SCENES)
     ]
     low, high = (pd.concat(medians)[name] for name in ("low", "high"))
-    if (low <= 0).any() and by_draw.holds:
-        return replace(by_draw, holds=None if (high > 0).all() else False)
-    return by_draw
+    if (low <= 0).any() and by_member.holds:
+        return replace(by_member, holds=None if (high > 0).all() else False)
+    return by_member
 
 
 @of_claim
@@ -179,20 +180,20 @@ def growth_falls_with_theta(t: Tables) -> Finding:
 @of_claim
 def friction_independent_with_ten_blocks(t: Tables) -> Finding:
     """Differences of the medians of mu_sapp in the noise ensemble, each with a verdict
-    of its interval; the note and the shares are of the three mu_sapp of one draw."""
-    by_draw = in_draws(
+    of its interval; the note and the shares are of the three mu_sapp of one member."""
+    by_member = in_ensembles(
         t,
         spread_of_friction,
         lambda span: span <= printed.LAST_DIGIT,
     )
     pairs = rows(t["noise_differences"], quantity="mu_sapp")
-    agree = "agree" if by_draw.holds else "do not agree"
+    agree = "agree" if by_member.holds else "do not agree"
     return replace(
-        by_draw,
+        by_member,
         ours=pairs["difference"],
         holds=all_same(pairs),
         note=f"The values of the three runs {agree}: they differ by"
-        f" {shown(by_draw.ours)}.",
+        f" {shown(by_member.ours)}.",
     )
 
 
@@ -218,15 +219,15 @@ def all_same(pairs: pd.DataFrame) -> bool | None:
 
 
 def spread_of_friction(runs: pd.DataFrame) -> pd.DataFrame:
-    """Largest less smallest mu_sapp of each draw; NaN where one is missing."""
-    friction = drawn("mu_sapp")(runs)
+    """Largest less smallest mu_sapp of each member; NaN where one is missing."""
+    friction = quantity("mu_sapp")(runs)
     return pd.DataFrame(np.ptp(friction.to_numpy(), axis=1), friction.index)
 
 
 @of_claim
 def friction_underestimated(t: Tables) -> Finding:
     """mu_sapp against the smallest mu_s that is printed as 0.70."""
-    return in_draws(t, drawn("mu_sapp"), lambda friction: friction < MU_S)
+    return in_ensembles(t, quantity("mu_sapp"), lambda friction: friction < MU_S)
 
 
 @of_claim
@@ -255,12 +256,13 @@ def first_global_slip_is_at_the_largest_load(t: Tables) -> Finding:
 @of_claim
 def short_events(t: Tables) -> Finding:
     """Events before the first global slip that Fig. 13 leaves out."""
+    every, counted = quantity("events_to_global_slip"), quantity("events_counted")
 
     def short(runs: pd.DataFrame) -> pd.DataFrame:
-        return drawn("events_to_global_slip")(runs) - drawn("events_counted")(runs)
+        return every(runs) - counted(runs)
 
-    for_all = in_draws(t, short, lambda n: n > 0)
-    for_one = in_draws(t, short, lambda n: (n > 0).any(axis=1).to_frame())
+    for_all = in_ensembles(t, short, lambda n: n > 0)
+    for_one = in_ensembles(t, short, lambda n: (n > 0).any(axis=1).to_frame())
     shares = [f"{100 * s.k / s.n:.0f} %" for s in for_one.shares.values()]
     note = f"For one loading or more: {', '.join(shares)}."
     return replace(for_all, note=note)
@@ -278,23 +280,23 @@ def precursors_in_later_periods(t: Tables) -> Finding:
 def no_rapid_growth(t: Tables) -> Finding:
     """Growth of L_p beyond 0.7 L over that before: in the experiment, it is large for
     all three loadings."""
-    by_draw = in_draws(
+    by_member = in_ensembles(
         t,
-        drawn("speedup"),
+        quantity("speedup"),
         lambda speedup: (speedup <= 1.0).any(axis=1).to_frame(),
     )
     others = t["digits_members"].query("draw > 0").groupby("scene")["speedup"]
     medians = shown(others.median()[list(SCENES)])
     note = f"Medians of the sliders with the same printed inputs: {medians}."
-    return replace(by_draw, note=note)
+    return replace(by_member, note=note)
 
 
 @of_claim
 def load_of_the_experiment(t: Tables) -> Finding:
     """F_X at the first global slip."""
-    return in_draws(
+    return in_ensembles(
         t,
-        drawn("global_slip_load_N", UNIFORM),
+        quantity("global_slip_load_N", UNIFORM),
         lambda load: (load / printed.FIRST_GLOBAL_SLIP_N - 1).abs() <= NEAR_LOAD,
     )
 
@@ -302,7 +304,7 @@ def load_of_the_experiment(t: Tables) -> Finding:
 @of_claim
 def slip_duration_of_the_experiment(t: Tables) -> Finding:
     """Duration of the first global slip."""
-    return in_draws(
+    return in_ensembles(
         t,
         lambda runs: (runs["global_slip_end_s"] - runs["global_slip_s"])[[UNIFORM]],
         lambda time: (time / printed.SLIP_DURATION_S - 1).abs() <= NEAR_TIME,

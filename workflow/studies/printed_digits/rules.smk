@@ -32,7 +32,7 @@ rule tabulate_printed_digits:
         "tabulate_printed_digits.py"
 
 
-if IS_PAPERS:
+if IS_PAPER_SLIDER:
 
     rule draw_printed_digits:
         """Draw the paper's six numbers, and how often the counts survive noise and other digits."""
@@ -65,7 +65,7 @@ rule printed_digits:
     input:
         rules.tabulate_printed_digits.input,  # makes a deleted chunk again
         rules.tabulate_printed_digits.output,
-        rules.draw_printed_digits.output if IS_PAPERS else [],
+        rules.draw_printed_digits.output if IS_PAPER_SLIDER else [],
     localrule: True
 
 
