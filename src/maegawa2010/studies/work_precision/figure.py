@@ -40,7 +40,9 @@ def draw(table: pd.DataFrame, compared: str | None = None) -> Figure:
         _draw_points(axes, rows)
         axes.set_xlabel("Computing time up to the first global slip [ms]")
         axes.set_ylabel("Largest error of a transition's time [s]")
-        axes.set_title("Ticks: runs with a wrong sequence of transitions", fontsize="small")
+        axes.set_title(
+            "Ticks: runs with a wrong sequence of transitions", fontsize="small"
+        )
         if compared is not None:
             _draw_factor(axes, rows, compared)
     return figure
