@@ -53,8 +53,9 @@ def slip_events_by_definition(run: Record) -> list[Slip]:
     """Return the slip events; this code defines them, and `slip_rows` is faster.
 
     An event ends when the last sliding block stops, unless a block is released at the
-    same instant. Blocks with almost no load (`Chain.bears_load`) are ignored, but are
-    assumed to slide if all others do: at the same instant or, for n_slid, at any time.
+    same instant. Blocks with almost no load (`Chain.bears_load`) are ignored, with two
+    exceptions. `front` and `n_simultaneous` include them if all others slide at the
+    same instant; `n_slid` includes them if all others slide during the event.
     """
     bears_load = run.chain.bears_load
     n_blocks = len(bears_load)
@@ -77,7 +78,7 @@ def slip_events_by_definition(run: Record) -> list[Slip]:
             slid: set[int] = set()
             n_simultaneous = 0
         else:
-            slips.pop()  # the event so far
+            slips.pop()  # replaced below by the event up to this transition
         slid |= sliding
         n_simultaneous = max(n_simultaneous, len(sliding))
         is_global = n_simultaneous == n_loaded
@@ -106,17 +107,18 @@ def slip_rows(run: Record) -> NDArray[np.void]:
     bears_load = run.chain.bears_load
     n_loaded = bears_load.sum()
     slides_after = (run.transitions["mode"] != 0) & bears_load[block - 1]
-    # In rows sorted by block, the row before has the block's previous transition.
+    # Sort the transitions by block. Did the same block slide after the previous one?
     order = np.argsort(block, kind="stable")
+    is_same_block = np.diff(block[order]) == 0
     slid_before = np.zeros(len(block), dtype=bool)
-    slid_before[order[1:]] = (np.diff(block[order]) == 0) & slides_after[order][:-1]
+    slid_before[order[1:]] = is_same_block & slides_after[order[:-1]]
     n_sliding = np.cumsum(slides_after.astype(int) - slid_before)
 
     ends_event = (n_sliding == 0) & (run.intervals[1:] > 0.0)
     ends_event[-1:] = True  # a slice, as there may be no transitions
     end = np.flatnonzero(ends_event)
     onset = np.append(0, end + 1)[:-1]
-    event = np.cumsum(ends_event) - ends_event
+    event = np.cumsum(ends_event) - ends_event  # number of each transition's event
     # Each pair of an event and a block that slid in it, as one number.
     pairs = np.unique((event * (n_blocks + 1) + block)[slides_after])
     n_slid = np.bincount(pairs // (n_blocks + 1), minlength=len(end))
@@ -154,9 +156,9 @@ def rows_of(slips: NDArray[np.void], chain: Chain) -> NDArray[np.void]:
 def slip_table(run: Record) -> pd.DataFrame:
     """Return all slip events of a run, with units in the names of the columns.
 
-    Next to those of `find_slips`, `counted` is true if Fig. 13 counts the event, and
-    `front_length_m` is L_p. The others identify the slider: theta (NaN if unknown),
-    n_blocks, normal_load_N (F_Z), slider_length_m (L) and mu_k.
+    The first columns are those of `find_slips`. The column `counted` is true if Fig. 13
+    counts the event, and `front_length_m` is L_p. The last columns identify the slider:
+    theta (NaN if unknown), n_blocks, normal_load_N (F_Z), slider_length_m (L) and mu_k.
     """
     return pd.DataFrame(slip_rows(run))
 
@@ -196,21 +198,23 @@ def counted(slips: pd.DataFrame | NDArray[np.void]) -> NDArray[np.bool_]:
 def until_global(is_global: ArrayLike) -> NDArray[np.bool_]:
     """Which events do not come after the first global slip."""
     is_global = np.asarray(is_global, bool)
-    return np.cumsum(is_global) - is_global == 0
+    n_before = np.cumsum(is_global) - is_global  # global slips before each event
+    return n_before == 0
 
 
 def describe_light_blocks(run: Record) -> str:
     """Describe how light blocks change the number of slip events, or return ""."""
     chain = run.chain
     light = chain.bears_load & (chain.weights < LIGHT * chain.weights.mean())
-    # The same transitions, but blocks without load are ignored.
-    ignoring = replace(run, chain=replace(chain, weights=chain.weights * ~light))
-    n, without = (len(slip_rows(one)) for one in (run, ignoring))
-    if n == without:
+    # The same transitions with zero load on light blocks, so that they are ignored.
+    heavy_only = replace(chain, weights=chain.weights * ~light)
+    n_all = len(slip_rows(run))
+    n_heavy = len(slip_rows(replace(run, chain=heavy_only)))
+    if n_all == n_heavy:
         return ""
     block = np.where(light, chain.weights, np.inf).argmin()
-    does = "keeps events from ending" if n < without else "has events of its own"
+    effect = "keeps events from ending" if n_all < n_heavy else "has events of its own"
     return (
-        f"block {block + 1}, with {chain.weights[block]:.2g} N, {does}: "
-        f"{n} events, {without} without light blocks"
+        f"block {block + 1}, with {chain.weights[block]:.2g} N, {effect}: "
+        f"{n_all} events, {n_heavy} without light blocks"
     )

@@ -22,8 +22,8 @@ from precursors.solver.run import Run
 __all__ = ["MAX_TRANSITIONS", "TransitionLimitError", "simulate"]
 
 MAX_TRANSITIONS = 10_000_000
-# A chain of more blocks may have a tenth of the transitions: each takes about ten times
-# as long, because more blocks slide at once.
+# Chains of more blocks are allowed only a tenth of `MAX_TRANSITIONS`, because a
+# transition takes about ten times as long if more blocks slide at once.
 MANY_BLOCKS = 500
 # The kernel runs in short windows of time while any block slides. If the blocks hardly
 # ever rest, this limit ends the run, for N = 10 after some 10 minutes of computing.

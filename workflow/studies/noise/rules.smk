@@ -35,7 +35,7 @@ rule tabulate_noise:
 rule noise:
     """Sensitivity to noise in the normal loads."""
     input:
-        rules.tabulate_noise.input,  # makes a deleted chunk again
+        rules.tabulate_noise.input,  # so that a deleted chunk is made again
         rules.tabulate_noise.output,
     localrule: True
 

@@ -63,7 +63,7 @@ if IS_PAPER_SLIDER:
 rule printed_digits:
     """Sensitivity to digits that the paper does not print."""
     input:
-        rules.tabulate_printed_digits.input,  # makes a deleted chunk again
+        rules.tabulate_printed_digits.input,  # so that a deleted chunk is made again
         rules.tabulate_printed_digits.output,
         rules.draw_printed_digits.output if IS_PAPER_SLIDER else [],
     localrule: True
