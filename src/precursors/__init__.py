@@ -1,11 +1,11 @@
 """Simulate stick-slip chains exactly, and analyse the precursors of global slip
 (Maegawa, Suzuki and Nakano 2010).
 
-This library works for any chain. The package `maegawa2010` reproduces the paper with
-it.
+This library works for any chain. The package `maegawa2010` uses it to reproduce the
+paper.
 
     >>> from precursors import Chain, apparent_friction, find_slips, plot, simulate
-    >>> run = simulate(Chain.from_slider(theta="-5/6"))  # other values as in the paper
+    >>> run = simulate(Chain.from_slider(theta="-5/6"))  # the rest as in the paper
     >>> round(apparent_friction(run), 4)
     0.4845
     >>> len(find_slips(run))
@@ -17,7 +17,7 @@ from importlib import import_module
 from importlib.metadata import version
 from typing import TYPE_CHECKING
 
-from precursors.audit import audit  # not lazily: the package has the same name
+from precursors.audit import audit  # not lazily: the subpackage has the same name
 
 if TYPE_CHECKING:
     from precursors.analysis.load_curve import load_curve
@@ -71,7 +71,7 @@ _MODULES = {
     "summarise": "analysis.summary",
 }
 
-# Hidden from type checkers, which would accept any name of this package otherwise.
+# Hidden from type checkers: with it, they would accept any name of this package.
 if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> object:

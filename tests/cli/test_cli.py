@@ -454,7 +454,7 @@ def test_audit_notes_that_an_older_file_has_no_checksum(cli, run_file, tmp_path)
     assert (code, out.startswith(f"{old}: a motion of the model")) == (0, True)
     assert (
         err
-        == f"{old} has no checksum, as it is older: the length of its contact is not checked\n"
+        == f"{old} is an older file without a checksum: the length of its contact is not checked\n"
     )
 
 
@@ -500,7 +500,7 @@ def test_audit_that_reaches_its_work_limit_is_undecided(cli, run_file, monkeypat
         (
             "plot --columns time=Zeit,F_X=Kraft",
             2,
-            "'time' is none of t, F_X, L_p/L, L_p, w, x, p",
+            "'time' must be one of t, F_X, L_p/L, L_p, w, x, p",
         ),
         ("plot --header-line 2", 2, "--header-line needs --data, --weights or"),
         ("plot --figure push --events 1_0", 2, "'1_0' is not a whole number"),

@@ -263,8 +263,8 @@ def test_dataset_longer_than_its_file_is_refused(path):
 def test_file_of_a_larger_chain_names_the_version_that_reads_it(run, path):
     with h5py.File(path, "r+") as file:
         del file["states"]
-        file["load_points"] = np.zeros((2, 2))  # only files of larger chains have it
-    words = r"^\S+run\.h5 is a run of a larger chain, .* git checkout 88883c9 reads it$"
+        file["load_points"] = np.zeros((2, 2))  # only files of the older model have it
+    words = r"^\S+run\.h5 is a run of an older model, .* git checkout 88883c9 reads it$"
     with pytest.raises(RunFileError, match=words):
         Record.load(path)
 

@@ -1,15 +1,19 @@
-"""The distance R of a run from kinetic balance, which slips do not change.
+"""The distance R of a run from kinetic balance; forward slips leave R unchanged.
 
 In kinetic balance the spring behind block j carries A_j = mu_k (w_j + ... + w_N). The
-distance from it, over springs (k_1 = K, then k) and blocks, is
+actual force in this spring is T_j, and its stiffness is k_j = K, k, k, ... The
+distance is
 
     R = sum_j (T_j - A_j)^2/(2 k_j) + sum_i m v_i^2/2
 
-Let n_i = T_i - T_{i+1} - mu_k w_i. As T_j' = k_j (v_{j-1} - v_j), with v_0 = V, the
-first sum changes by sum_j (T_j - A_j)(v_{j-1} - v_j) = (F_X - mu_k F_Z) V - sum_i n_i
-v_i. As m v_i' = n_i while block i slides forward, and n_i + 2 mu_k w_i while it slides
-backward, the second changes by sum_i n_i v_i, less 2 mu_k w_i |v_i| for each block that
-slides backward. So the change of R over the path X = V t of the drive is
+The first sum changes at a rate that follows from T_j' = k_j (v_{j-1} - v_j), v_0 = V:
+
+    sum_j (T_j - A_j)(v_{j-1} - v_j) = (F_X - mu_k F_Z) V - sum_i n_i v_i
+
+with n_i = T_i - T_{i+1} - mu_k w_i. While block i slides forward, m v_i' = n_i. While
+it slides backward, m v_i' = n_i + 2 mu_k w_i. The second sum therefore changes at the
+rate sum_i n_i v_i, less 2 mu_k w_i |v_i| for each block that slides backward. Over the
+path X = V t of the drive, R changes by
 
     dR/dX = F_X - mu_k F_Z - 2 mu_k sum_{v_i < 0} w_i |v_i|/V
 
@@ -31,7 +35,7 @@ class Balance(NamedTuple):
     """Terms of the change of R in some time [J]: change = work - backward +
     remainder."""
 
-    work: float  # of the drive, less that against kinetic friction
+    work: float  # of the drive, minus the work against kinetic friction
     backward: float  # loss by blocks that slide backward
     change: float  # of R
     remainder: float  # error of the run and of the integral
@@ -49,9 +53,9 @@ def distance(run: Run, times: ArrayLike, n_blocks: int | None = None) -> FloatAr
     """Return the distance R [J] from kinetic balance at `times` [s], shape
     (len(times),).
 
-    It is that of the first `n_blocks` and their springs on both sides, by default of
-    all. Until a block ahead of them slides, the identity holds with their load instead
-    of F_Z.
+    The sums are over the first `n_blocks` blocks and the springs behind and ahead of
+    them, by default over all. Until a block ahead of them slides, dR/dX has their
+    normal load instead of F_Z.
     """
     chain = run.chain
     n = n_blocks or chain.n_blocks
@@ -71,7 +75,8 @@ def balanced_forces(chain: Chain, n_blocks: int) -> FloatArray:
 
 
 def drive_work(run: Run, times: ArrayLike) -> FloatArray:
-    """Return the work of the drive less that against kinetic friction, up to `times`.
+    """Return the work of the drive, minus the work against kinetic friction, up to
+    `times`.
 
     It is V times the integral of F_X - mu_k F_Z from 0 to each time [s], in J, shape
     (len(times),). Between points of the load curve, F_X is the cubic with the loads and

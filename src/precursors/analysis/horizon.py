@@ -1,11 +1,11 @@
 """Estimate the predictability time, up to which a run is accurate to a given tolerance.
 
 Neighbours are runs whose parameters and start differ by a few roundings. The spread of
-their transition times gives the error of a transition's time, and the order of
-transitions is known as long as all neighbours agree. Rounding errors during the run
-matter if a slip is long or a block stops with a small slope. Runs with all forces times
-a factor show them: they have the same motion, with other rounding errors at every step.
-The result is an estimate; `certify` gives a proof.
+their transition times gives the error of a transition's time. The order of transitions
+is known as long as all neighbours agree. Rounding errors during the run also matter, if
+a slip is long or a block stops with a small deceleration. Further runs show these
+errors: all their forces are multiplied by a factor, so that the motion is the same but
+every step is rounded differently. The result is an estimate; `certify` gives a proof.
 """
 
 from dataclasses import dataclass, replace
@@ -28,11 +28,11 @@ N_NEIGHBOURS = 16
 ROUNDINGS = 64.0
 # The error is estimated as SIGMAS times the spread that one rounding causes.
 SIGMAS = 6.0
-# Number of runs with other rounding errors, and the ratio of the error to their spread.
+# Number of runs with multiplied forces, and ratio of the error to their spread.
 N_ROUNDED = 8
 SIGMAS_ROUNDED = 4.0
-# Smallest drop of friction, relative to mu_s and the mean load. With a smaller one,
-# what the solver counts as zero shifts the stops.
+# Smallest drop of friction, (mu_s - mu_k) w_i over the mean of mu_s w_i. After a
+# smaller one, stops depend on which values the solver counts as zero.
 NO_DROP = 1e-7
 # Neighbours run longer by this factor, so that none misses a transition just before the
 # end.
@@ -49,7 +49,7 @@ class PredictedErrors:
     """Estimated errors of the transition times of a run [s].
 
     The order of transitions is known up to `order_known_until` [s], which is infinite
-    if all of it is known. Later errors are infinite.
+    if all of it is known. Errors of later transitions are infinite.
     """
 
     time: FloatArray
@@ -60,8 +60,7 @@ class PredictedErrors:
     def horizon(self, tolerance: float) -> float:
         """Return the predictability time [s] (see the function `horizon`)."""
         is_wrong = (self.time_error > tolerance) & np.isfinite(self.time_error)
-        # A transition may come earlier by its error, but not before the one ahead of
-        # it.
+        # A transition may come earlier by its error, but not before the previous one.
         earliest = np.maximum(
             self.time - self.time_error, np.append(0.0, self.time[:-1])
         )
@@ -70,8 +69,8 @@ class PredictedErrors:
 
 
 def horizon(run: Run, tolerance: float) -> float:
-    """Return the time [s] up to which the order of transitions is right, and their
-    times are accurate to `tolerance` [s]."""
+    """Estimate the time [s] up to which the transitions of a run are in the right order
+    and their times are accurate to `tolerance` [s]."""
     positive("tolerance", tolerance, "s")
     return predicted_errors(run).horizon(tolerance)
 
@@ -80,8 +79,9 @@ def predicted_errors(run: Run) -> PredictedErrors:
     """Estimate the error of each transition's time, and the time up to which their
     order is known.
 
-    The neighbours are drawn with a fixed seed. A run and its continuation have the same
-    errors as long as both last. The work is that of `N_NEIGHBOURS` + `N_ROUNDED` runs.
+    The neighbours are drawn with a fixed seed, so a run and a longer run of the same
+    chain have the same errors while both last. The work is that of `N_NEIGHBOURS` +
+    `N_ROUNDED` runs.
     """
     time = run.transitions["time"].astype(np.float64)
     others = neighbours(run)
@@ -110,8 +110,8 @@ def predicted_errors(run: Run) -> PredictedErrors:
 def neighbours(run: Run) -> list[Run]:
     """Return perturbed runs, all slightly longer than the run.
 
-    The first differ by `ROUNDINGS` roundings in chain and start; the others have the
-    same motion with other rounding errors at every step.
+    The first `N_NEIGHBOURS` differ in chain and start; the others have multiplied
+    forces.
     """
     random = np.random.default_rng(SEED)
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from precursors.model.chain import FloatArray
 from precursors.solver.run import Record, Run
 
-# 1/50 of a pixel if a slip of 1 N fills 200 pixels.
+# Largest error: 1/50 of a pixel if a slip of 1 N fills 200 pixels.
 TOLERANCE_N = 1e-4
 # Largest phase of the fastest vibration between two points: no oscillation is missed.
 PHASE_PER_STEP = np.pi / 4
@@ -19,15 +19,14 @@ MOST_POINTS = 200_000
 
 
 def load_curve(run: Record) -> tuple[FloatArray, FloatArray]:
-    """Return times [s] and loads [N] whose joining lines are within `TOLERANCE_N` of
-    F_X(t).
+    """Return times [s] and loads [N] of points of F_X(t), between which straight lines
+    are accurate to `TOLERANCE_N`.
 
-    While block 1 sticks, F_X grows linearly, and only transitions are points. While it
-    slides, intervals are halved until the chord is accurate. The error of the chord is
-    estimated for the cubic with the loads and slopes at both points: it is at most a
-    quarter of the interval times the larger difference between the slope of the chord
-    and those of the curve. If a run has too many transitions or slides for
-    `MOST_POINTS`, the points keep its appearance only.
+    While block 1 sticks, F_X grows linearly, and only transitions need points. While
+    block 1 slides, intervals are halved until the chord between their ends is accurate.
+    For a cubic, the error of a chord is at most a quarter of the interval times the
+    larger difference between its slope and those of the curve at its ends. If more than
+    `MOST_POINTS` are needed, they are thinned, and the curve is only right to the eye.
     """
     if not isinstance(run, Run):
         raise TypeError(f"load_curve needs a Run, but got {type(run).__name__}")

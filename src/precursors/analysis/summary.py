@@ -13,9 +13,9 @@ from precursors.solver.run import Record
 
 
 class Summary(NamedTuple):
-    """Numbers of a run; without a global slip, those of the first one are NaN."""
+    """Numbers of a run; without a global slip, the last five are NaN."""
 
-    events_to_global_slip: int  # including the first global slip; all without one
+    events_to_global_slip: int  # with the first global slip; all if there is none
     events_counted: int  # those of Fig. 13
     events_in_all: int  # in the whole run
     reached: bool  # whether there is a global slip

@@ -1,8 +1,7 @@
 """Check independently that a run obeys the equation of motion and Coulomb's law.
 
-No code of the solver is used. The motion between two transitions follows from the
-normal modes of the sliding blocks, and the conditions inside the interval are proved
-with a bound of the fourth derivative.
+No code of the solver is used. The motion between two transitions is computed from the
+normal modes of the sliding blocks.
 """
 
 from __future__ import annotations
@@ -20,22 +19,26 @@ in 20,000 random chains."""
 
 
 def audit(run: Run, roundings: float = ROUNDINGS) -> Audit:
-    """Check that a run is a motion of the chain, without the solver's code.
+    """Check that a run is a motion of its chain, without the solver's code.
 
-    Inside each interval, sliding blocks must keep the direction of their mode, and
-    stuck blocks must stay within +-mu_s w. Excesses above the tolerance are reported,
-    and a bound proves that none is above twice the tolerance. At each transition the
-    switching rule, the recorded load and the recorded time are checked.
+    Between transitions, sliding blocks must slide in the direction of their mode, and
+    the net force on a stuck block must be within +-mu_s w. An excess above the
+    tolerance is reported; a bound proves that no excess above twice the tolerance is
+    missed. At each transition, the new mode, the load and the time are checked.
 
     Parameters
     ----------
     run : Run
-        Its chain, start, transitions, intervals, duration and stored states are
-        checked. The motion does not depend on the chain's `length` and on
-        `evaluations`, so only the checksum of a run file protects them.
+        The run. Everything in it is checked but the chain's `length` and
+        `evaluations`, on which the motion does not depend.
     roundings : float
-        Tolerance of forces and velocities, in roundings; the default is for exact
-        runs.
+        Tolerance of forces and velocities, in roundings of a step; the default is for
+        exact runs.
+
+    Returns
+    -------
+    Audit
+        Whether the run is `ok`, and a list of `problems`.
 
     Raises
     ------

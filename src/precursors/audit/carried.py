@@ -19,15 +19,15 @@ class CarriedState(NamedTuple):
     """Modes, velocities and spring forces (not positions) of a chain.
 
     Solver and audit carry spring forces f and velocities v in doubles. Each step rounds
-    them by some units of 2^-53 of their largest possible size, in the norm sum
-    f_i^2/k_i + m v_i^2, which is twice the energy. A step is a transition or a radian
-    of the fastest motion, and the drive counts as a moving mass. In this norm the
+    them by some units of 2^-53 of their largest possible size, in the norm whose square
+    is sum f_i^2/k_i + m v_i^2, twice the energy. A step is a transition or a radian of
+    the fastest motion, and the drive counts as a moving mass. In this norm the
     difference of two motions with the same transitions does not grow: free motion
     conserves it, and a stop reduces it. Rounding errors therefore add up. Those of one
     interval are summed, since they may have the same sign; those of different intervals
-    are summed as squares. With one rounding per step the sum is `rounding` [sqrt(J)].
-    Divided by sqrt(m) it is the error of a velocity [m/s], and multiplied by
-    `per_force` that of the net force on each block [N].
+    are summed as squares. The sum for one rounding per step is `rounding` [sqrt(J)].
+    `rounding` over sqrt(m) is the error of a velocity [m/s], and `rounding` times
+    `per_force` is the error of the net force on each block [N].
     """
 
     mode: IntArray

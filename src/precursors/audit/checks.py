@@ -16,11 +16,11 @@ from precursors.solver.run import Run
 from precursors.support.waiting import bar
 
 TIME_TOLERANCE = 1e-12
-"""Relative to the duration. Each transition rounds the recorded time, while the
-intervals are more accurate."""
+"""Tolerance of recorded times, relative to the duration: each transition rounds them,
+while the intervals are more accurate."""
 
 THETA_TOLERANCE = 1e-12
-"""Relative to F_Z, since weights and their sum are rounded."""
+"""Tolerance of weights, relative to F_Z."""
 
 MAX_PROBLEMS = 20
 """The audit stops after this many problems: one wrong transition makes the rest
@@ -210,8 +210,8 @@ class Auditor:
                 )
 
     def check_stop(self, block: int, mode: int) -> None:
-        """Check that a sliding block stops, and that it then sticks if its force allows
-        that."""
+        """Check that a sliding block stops, and that it then sticks if friction can hold
+        it."""
         state = self.state
         speed = abs(state.velocity[block - 1])
         force = state.net_force()[block - 1]

@@ -157,12 +157,12 @@ def prove(conditions, duration, tolerance, most):
     """Return the lowest values and their times, each of shape (number of conditions,),
     and the number of values computed.
 
-    If none is below -tolerance, it is proved that none is below -2 tolerance anywhere
-    in the interval. Let M bound the fourth derivative of a function g. On a cell of
-    width d, g then differs by at most M d^4/384 from the cubic with the same values and
-    slopes at both ends, and a cubic is not below its least Bernstein coefficient. A
-    cell for which this bound is not sufficient is cut, unless a value is below
-    -tolerance. The search ends after more than `most` values.
+    If no computed value is below -tolerance, then no value anywhere in the interval is
+    below -2 tolerance. Proof: let M bound the fourth derivative of a function g. On a
+    cell of width d, g then differs by at most M d^4/384 from the cubic with the same
+    values and slopes at both ends, and a cubic is not below its least Bernstein
+    coefficient. A cell for which this bound is not sufficient is cut, unless a value is
+    below -tolerance. The search ends after more than `most` values.
     """
     columns = len(tolerance)
     n_modes = len(conditions.motion.omega)

@@ -14,7 +14,7 @@ from precursors.model.chain import Chain, FloatArray
 from precursors.solver.record import IntArray
 from precursors.support.compiled import entry, untyped
 
-# Compiled, because a run has as many intervals as transitions. Division by zero is inf.
+# Compiled, because runs have many intervals. Division by zero gives inf.
 inner: Any = untyped.njit(error_model="numpy")
 outer: Any = entry(Path(__file__).parent, error_model="numpy")
 

@@ -10,8 +10,8 @@ class Audit:
 
     `problems` are at most `checks.MAX_PROBLEMS` sentences about deviations above the
     tolerance. `roundings` is the largest deviation of a force or a velocity, in
-    roundings. `is_undecided` is True if the only problem is that the audit takes too
-    much work.
+    roundings of a step. `is_undecided` is True if the only problem is that the audit
+    takes too much work.
     """
 
     roundings: float = math.nan

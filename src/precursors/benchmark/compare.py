@@ -81,7 +81,7 @@ class Comparison:
     """Agreement of a run with the truth: how long it lasts, and the errors until then.
 
     A transition is right if its block and mode are right. A slip event is right if its
-    front is right, and whether all blocks slid at once. Counting stops at the first
+    `front` and `is_global` are right. Counting stops at the first
     transition, or slip event, that is wrong or missing. `time_errors` [s] belong to the
     right transitions. `load_error` [N] is the largest error of F_X at the onsets of
     right slips, NaN if there are none. `first_difference` [s] is the time of the first
@@ -121,9 +121,8 @@ def compare(run: Record, truth: Truth) -> Comparison:
     """Compare a run with the truth over the same time: both must go to the end, or both
     to the first global slip.
 
-    The motion is chaotic. After the first difference, and soon after the first global
-    slip, run and truth differ as much as the motions of two chains. Errors are
-    therefore computed only before the first difference.
+    The motion is chaotic. After the first difference, run and truth soon differ as much
+    as the motions of two chains. Errors are therefore computed only before it.
 
     Raises
     ------

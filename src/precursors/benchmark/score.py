@@ -42,9 +42,9 @@ def solution(problem: str) -> Truth:
 def score(path: str | Path, problem: str, ties: float = 0.0) -> dict[str, Any]:
     """Compare a result file with the proved solution of a problem.
 
-    Rows whose times differ by at most `ties` [s] may be in any order. Errors are the
-    largest before the first wrong transition. A value is NaN if the file ends too early
-    to know it.
+    Rows whose times differ by at most `ties` [s] may be in any order. Each error
+    is the largest before the first wrong transition. A value is NaN if the file ends
+    too early to know it.
 
     Raises
     ------

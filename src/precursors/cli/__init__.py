@@ -27,7 +27,7 @@ class Refused(Exception):
 def main(argv: Sequence[str] | None = None) -> int:
     """Run a command and return its exit code; an error is one line on standard
     error."""
-    # Starting threads costs more than any matrix here.
+    # The matrices are too small for threads.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     if isinstance(sys.stdout, TextIOWrapper):  # a terminal may lack some characters
         sys.stdout.reconfigure(errors="backslashreplace")
@@ -41,7 +41,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         from precursors.cli import commands
 
         getattr(commands, arguments.command)(arguments)
-        if sys.stdout:  # None where it was closed
+        if sys.stdout:  # None if it was closed
             sys.stdout.flush()
         return DONE
     except BrokenPipeError:  # as in `precursors slips | head`

@@ -34,7 +34,7 @@ from precursors.support.checkout import built_state, git_state
 from precursors.support.files import write_table
 from precursors.support.measured import read_profile, read_weights
 
-# Predicting the errors of a longer run would take seconds.
+# Predicting the errors of a run with more transitions would take seconds.
 MOST_REPEATED = 50_000
 
 
@@ -144,7 +144,7 @@ def audit(arguments: Namespace) -> None:
             )
             if not has_checksum(path):
                 note(
-                    f"{path} has no checksum, as it is older: the length of its contact is not checked"
+                    f"{path} is an older file without a checksum: the length of its contact is not checked"
                 )
         else:
             is_not = "undecided" if report.is_undecided else "not a motion of the model"

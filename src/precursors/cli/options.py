@@ -25,7 +25,6 @@ exit codes:
   4    a required package is not installed
   130  interrupted (Ctrl-C)"""
 
-# Usage and meaning of each command.
 COMMANDS = {
     "simulate": ("[options]", "run a chain and summarise it"),
     "slips": ("[RUN.h5] [options]", "list the slip events of a run"),
@@ -100,7 +99,7 @@ def read_options(argv: Sequence[str]) -> argparse.Namespace:
             description=f"{meaning.capitalize()}.",
             usage=f"precursors {name} {usage}",
         )
-        if name in argv:  # not those of the others: they load the model
+        if name in argv:  # options of other commands would load the model
             add_options(command, name)
     # argparse reads -5/6 as an option, but " -5/6" as a value.
     values = [re.sub(r"^-(?=[\d.])", " -", argument) for argument in argv]
@@ -186,7 +185,7 @@ def _add_chain(command: Parser) -> None:
     add_one(
         "--theta",
         type=str.strip,
-        help='non-uniformity of the normal loading, for example "5/6" (0)',
+        help='non-uniformity of the normal load, for example "5/6" (0)',
     )
     add_one(
         "--weights",
@@ -220,9 +219,9 @@ def _add_chain(command: Parser) -> None:
         type=_whole,
         action="append",
         metavar="N",
-        help="number of the line with the column names, from 1; with several files, give this "
-        "option and --columns once for all, or once for each: that of --weights or --profile "
-        "comes first",
+        help="number of the line with the column names, counted from 1; with several files, "
+        "give this option and --columns once for all files, or once for each: first for "
+        "--weights or --profile, then for --data",
     )
     add(
         "--cell-spacing",
@@ -261,14 +260,14 @@ def _add_look(command: Parser) -> None:
         type=_whole,
         nargs="+",
         metavar="N",
-        help="numbers of the slip events that --figure push shows instead, from 1",
+        help="numbers, from 1, of the slip events to show with --figure push",
     )
     add(
         "--data",
         action="append",
-        help="file of measured t [s] and F_X [N], or t and L_p [mm], or F_X and L_p/L, to "
-        "draw as well; may be repeated, with its options once for all files or once for "
-        "each",
+        help="measured file to draw as well, with columns t [s] and F_X [N], t and L_p [mm], "
+        "or F_X and L_p/L; may be repeated, with its options given once for all files or "
+        "once for each",
     )
     _add_numbers(add, DATA, action="append")
     add(
@@ -302,9 +301,7 @@ def _choice(text: str) -> dict[str, str]:
             f'{text!r} is not of the form "t=NAME [ms],F_X=NAME [kN]"'
         )
     for key in chosen.keys() - COLUMNS.values():
-        raise argparse.ArgumentTypeError(
-            f"{key!r} is none of {', '.join(COLUMNS)}, which columns are chosen for"
-        )
+        raise argparse.ArgumentTypeError(f"{key!r} must be one of {', '.join(COLUMNS)}")
     return chosen
 
 

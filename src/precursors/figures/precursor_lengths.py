@@ -1,5 +1,5 @@
 """Fig. 13: front length of the precursors against the tangential load, for several
-loadings."""
+runs."""
 
 from collections.abc import Sequence
 from itertools import cycle
@@ -16,7 +16,7 @@ from precursors.model.chain import FloatArray
 
 HEIGHT_MM = 80.0
 LEGEND_MM = 8.0  # height of an entry of a key below the panel
-# Scenes without names along their curves have different outlines.
+# Marks of scenes (runs) whose curves are named in the key.
 OUTLINES = "osD^vh"
 # Sizes differ, so that marks stay visible around each other.
 SIZES = {-1: 4.2, 0: 5.2, 1: 6.6}
@@ -61,11 +61,11 @@ def draw(
     look: style.Look = style.LOOK,
     weights: ArrayLike | None = None,
 ) -> Figure:
-    """Draw L_p/L against F_X at the onset, up to and including the first global slip.
+    """Draw L_p/L of each event against F_X at its onset, up to the first global slip.
 
-    `data` are measured lengths L_p/L against the load at the onset [N]. Scenes without
-    a slip event are left out. `weights` [N] are the normal loads of the blocks; by
-    default they follow from theta.
+    `slips` are slip tables, one per scene; scenes without a slip event are left out.
+    `data` are measured lengths L_p/L against the load at the onset [N]. `weights` [N]
+    are the normal loads of the blocks; by default they follow from theta.
 
     Raises
     ------

@@ -24,8 +24,8 @@ LEFT: Options = {
     "linewidth": 1.0,
     "label": "what kinetic friction leaves of $F_X$",
 }
-# Position of the row of blocks below a panel, in units of the panel. Places of the
-# drive and of both ends are in lengths of the row.
+# Position of the row of blocks below a panel, in units of the panel; then places of the
+# drive and of both ends, in units of the row.
 ROW = (0.0, -0.16, 1.0, 0.13)
 DRIVE = -0.1
 ENDS = (-0.14, 1.1)

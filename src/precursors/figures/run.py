@@ -54,33 +54,33 @@ def plot(
     look: Look | Mapping[str, Any] = LOOK,
     events: Sequence[int] = (),
 ) -> Figure | Movie:
-    """Draw a run.
-
-    The figure shows the load and slips over time, the front lengths against the load,
-    or two precursors and the first global slip (the push in the springs, or a movie).
+    """Draw one of five figures of a run.
 
     Parameters
     ----------
     run : Run
-        The run; a `Record` is enough for the lengths.
+        The run; a `Record` is enough for "lengths".
     figure : "load", "curve", "lengths", "push" or "wave"
-        As Figs. 10-12, their load alone, as Fig. 13, the spring forces, or an animated
-        SVG, which takes no other parameter.
-    data : array, shape (n, 2), DataFrame or path of a table, or a list, optional
-        Measured t [s] and F_X [N], or F_X [N] and L_p/L, to draw as well; the key has
-        their distance from the run. For "load", a table may also have L_p over t. A
-        list has tables.
+        - "load": tangential load and slip events over time, as in Figs. 10-12.
+        - "curve": the tangential load alone.
+        - "lengths": front lengths against the tangential load, as in Fig. 13.
+        - "push": spring forces before and after two precursors and the global slip.
+        - "wave": an animated SVG of these events, which takes no other parameter.
+    data : array of shape (n, 2), table (DataFrame or path) or list of tables, optional
+        Measured t [s] and F_X [N] to draw as well; for "lengths" F_X [N] and L_p/L. For
+        "load", a table may also have L_p over t. The key states the distance from the
+        run.
     title : str, optional
-        By default the number of blocks; none for lengths.
+        Replaces the default title.
     look : Look or dict, optional
         `width_mm`, `font_size` [pt] and `font`.
     events : sequence of int, optional
-        Numbers of the slip events that "push" shows instead, from 1.
+        Numbers, from 1, of the slip events to show with "push".
 
     Returns
     -------
     matplotlib.figure.Figure, or Movie for a wave
-        `savefig` writes it; no state of pyplot is used.
+        Its method `savefig` writes a file.
 
     Raises
     ------

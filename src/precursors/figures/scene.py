@@ -72,7 +72,7 @@ def draw(
 
     An event that is not over when the run ends is drawn as a band. The slip table may
     be empty. The trace is linear between its rows. `data` are measured loads [N] or
-    front lengths [m] over time [s]. Among stacked figures, only one needs a key.
+    front lengths [m] over time [s]. Of several figures on a page, one needs a key.
     """
     width_mm = look.width_mm or style.PAGE_MM
     slips = _with_kinds(slips)
@@ -192,7 +192,7 @@ def _draw_load(
     axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame, end: float
 ) -> None:
     """Draw F_X and the line mu_k F_Z."""
-    # One row more than in the panel, so that the line reaches its edge.
+    # One row beyond the panel, so that the curve reaches its edge.
     seen = trace[trace["time_s"].shift(fill_value=0.0) <= end]
     axes.plot(*seen[LOAD].to_numpy().T, color=style.BLACK, linewidth=0.6)
     axes.set_ylabel("$F_X$ [N]")
@@ -222,7 +222,7 @@ def _draw_events(axes: Axes, slips: pd.DataFrame, trace: pd.DataFrame) -> None:
                 label="not over when the run ends",
             )
     edge = slips[slips["is_at_the_edge"]]
-    # Every scene has it in the key. An empty line must be clipped, or the layout fails.
+    # Drawn even if empty, to be in every key; then it must be clipped for the layout.
     points = edge[["onset_s", "reached_mm"]].to_numpy().T
     axes.plot(*points, **TO_THE_EDGE, clip_on=edge.empty)
     axes.set_ylim(0, 1.08 * style.MM_PER_M * slips["slider_length_m"].iloc[0])

@@ -26,11 +26,11 @@ from precursors.support.files import write_whole
 # Keyword arguments of a drawing method of Matplotlib.
 Options = dict[str, Any]
 
-# Each colour has one meaning in all figures and on the page. Any two differ by more than
-# 20 in CIELAB, also for readers with protanopia or deuteranopia.
-TRAILING = "#C27400"  # the three loadings: more load at the trailing edge,
-UNIFORM = "#158243"  # uniform load,
-LEADING = "#BB5EB5"  # more load at the leading edge
+# Each colour has one meaning in all figures and on the interactive page. Any two differ
+# by more than 20 in CIELAB, also for readers with protanopia or deuteranopia.
+TRAILING = "#C27400"  # more normal load at the trailing edge
+UNIFORM = "#158243"  # uniform normal load
+LEADING = "#BB5EB5"  # more normal load at the leading edge
 PARTIAL = "#45BBFF"  # the kinds of slip
 GLOBAL = "#A7000E"
 BACKWARD = "#374DC2"

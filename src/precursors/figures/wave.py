@@ -15,7 +15,7 @@ from precursors.support.files import AnyPath, check_writable, write_text
 
 XMLNS = "http://www.w3.org/2000/svg"
 # Lengths are in pixels of the SVG.
-LEFT = 80  # of the first panel, and of the first block at rest
+LEFT = 80  # left edge of the first panel, and of block 1 at rest
 RIGHT = 980
 PLANE = 140
 BLOCK = 42  # largest side of a block
@@ -54,7 +54,7 @@ rect, path {{ stroke: currentColor }}
 .reach {{ stroke-width: 2; stroke-dasharray: 5 4 }}
 .now {{ stroke-width: 3 }}
 """
-# Block, start and stop as shares of the event, colour of each slide.
+# Of each slide: block, start and stop as shares of the event, colour.
 Slides = list[tuple[int, float, float, str]]
 
 

@@ -25,22 +25,22 @@ from precursors.model.checks import (
 from precursors.model.profile import shares_of_profile
 
 FloatArray = NDArray[np.float64]
-# Beyond these limits, a single slip needs more steps than a run may have, or its
-# duration is lost in rounding.
+# Limits of k/K and of sqrt(k/m) [rad/s]. Beyond them, a slip needs more steps than a
+# run may have, or its duration is lost in rounding.
 STIFFEST = 1e12
 FASTEST = 1e20
-# The paper's loading is the default.
+# Defaults, as in the paper.
 N_BLOCKS = 10
 THETA = 0.0
 NORMAL_LOAD = 400.0
-CELL_SPACING = 0.06  # of its two load cells [m]
-# Mode of a block without load: it moves without friction, so it neither sticks nor
-# slips, and it has no transitions.
+CELL_SPACING = 0.06  # between the paper's load cells [m]
+# Mode of a block without normal load: it moves without friction, so it neither
+# sticks nor slips, and it has no transitions.
 FREE = 2
-# Share of the mean load below which a block does not count in slip events. Such a light
-# block vibrates from one slip into the next, and would join them into one event. In 60
-# random chains under the paper's drive, light blocks leave mu_sapp unchanged in all
-# chains from 6e-5 on, in 38 % at 1e-5, and in 12 % at 1e-6 and below.
+# Share of the mean normal load below which a block does not count in slip events. Such
+# a light block vibrates from one slip into the next, and would join them into one
+# event. In 60 random chains with the paper's drive, light blocks changed mu_sapp in no
+# chain if their share was 6e-5 or more, in 62 % at 1e-5, and in 88 % at 1e-6 and below.
 LEAST_SHARE = 1e-4
 _POSITIVE = {
     "mass": "kg",
@@ -141,8 +141,8 @@ class Chain:
         n_blocks : int
             Number N of blocks, at least 1.
         theta : float or str
-            Degree of non-uniformity of the normal loading, -1 <= theta <= 1, as a
-            number or a fraction such as "5/6".
+            Degree of non-uniformity of the normal load, -1 <= theta <= 1, as a number
+            or a fraction such as "5/6".
         normal_load : float
             Total normal load F_Z [N].
         mu_s, mu_k : float
@@ -152,13 +152,13 @@ class Chain:
         slider_mass, youngs_modulus, cross_section, length : float
             M [kg], E [Pa], S [m^2] and L [m] of the slider.
         weights : array_like, shape (N,), optional
-            Measured normal load of each block [N], from the trailing edge on. It
-            replaces n_blocks, theta and normal_load.
+            Measured normal load of each block [N], starting at the trailing edge. The
+            weights replace n_blocks, theta and normal_load.
 
         Raises
         ------
         ValueError
-            In one line: which parameter is wrong, what it must be, and what it is.
+            If a parameter is out of range; the message names it and its limits.
         """
         if weights is None:
             loads = linear_weights(n_blocks, normal_load, theta)
@@ -194,22 +194,23 @@ class Chain:
     ) -> Chain:
         """Cut a slider into N blocks whose loads have the shape of a measured profile.
 
-        Without positions, the profile is constant over each of its M equal cells. With
-        positions, it is interpolated linearly between them and constant beyond the
-        first and the last. It is integrated over each block and scaled to the total
-        load.
+        Without positions, the M values belong to M equal cells of the slider. With
+        positions, the profile is interpolated linearly, and is constant beyond the
+        first and the last. The load of a block is the integral of the profile over the
+        block, scaled to the total load.
 
         Parameters
         ----------
         profile : array_like, shape (M,) or (M, width)
-            Pressure or load of each cell, in any unit, not negative, from the trailing
-            edge on; a matrix is summed over the width.
+            Pressure or load, in any unit, not negative, starting at the trailing edge;
+            a matrix is summed over the width.
         n_blocks : int
             Number N of blocks.
         normal_load : float
             Total normal load F_Z [N].
         positions : array_like, shape (M,), optional
-            Where the profile was measured, from the pushed end on [m], rising.
+            Distances from the trailing edge [m] at which the profile was measured,
+            rising.
         **slider
             Other arguments of `from_slider`.
         """
@@ -333,8 +334,8 @@ def theta_from_load_cells(
     """Return theta from two load cells: (F_ZB - F_ZA)/F_Z * L/d (Sect. 5.2).
 
     The loads [N] are measured at two cells a distance d = `spacing` [m] apart, and are
-    extrapolated linearly over the contact length L [m]. The result is exact: 100 N and
-    300 N, 60 mm apart on 100 mm, give 5/6.
+    extrapolated linearly over the contact length L [m]. For example, 100 N and 300 N,
+    measured 60 mm apart on a slider of 100 mm, give exactly 5/6.
     """
     a = Fraction(repr(not_negative("load_a", load_a, "N")))
     b = Fraction(repr(not_negative("load_b", load_b, "N")))

@@ -9,7 +9,7 @@ from typing import Any, Literal, TypeGuard
 import numpy as np
 from numpy.typing import NDArray
 
-# Where a run ends if that comes before its duration is over.
+# Event at which a run ends before its duration is over.
 Until = Literal["global slip"] | None
 
 # Products and squares of three such numbers stay within the range of doubles.
@@ -25,14 +25,13 @@ def number(name: str, value: object, unit: str) -> float:
         with suppress(OverflowError):
             if math.isfinite(result := float(value)):
                 return result
-    # A list may be meant for the blocks, and a function for a change in time.
     many = callable(value) or isinstance(value, (list, tuple, np.ndarray))
     kind = "one number for all blocks and times" if many else "a finite number"
     raise ValueError(f"{name} must be {kind} [{unit}], but is {value!r}")
 
 
 def is_number(value: object) -> TypeGuard[Real]:
-    """Whether the type of a value is a real number; booleans and texts are refused."""
+    """Whether a value has the type of a real number, and is not a boolean."""
     return isinstance(value, Real) and not isinstance(value, bool)
 
 

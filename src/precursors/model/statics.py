@@ -62,8 +62,8 @@ def largest_load_at_rest(chain: Chain) -> tuple[float, FloatArray]:
     """Return the largest F_X = K y_1 [N] of all states of rest, and the compressions
     [m] of that state (Eqs. 5, 11-13).
 
-    It is optimum by a linear program with free y_i: a block is at rest if |s_i y_i -
-    s_{i+1} y_{i+1}| <= mu_s w_i with s = K, k, k, ...
+    A linear program finds this state. A block is at rest if |s_i y_i - s_{i+1} y_{i+1}|
+    <= mu_s w_i with s = K, k, k, ...
     """
     # With y_i in units of F_Z/s_i and forces in units of F_Z, the program is well
     # scaled for any K/k.

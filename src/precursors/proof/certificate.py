@@ -94,7 +94,7 @@ class Tie(NamedTuple):
 
 @dataclass(frozen=True)
 class Certificate:
-    """All proved transitions of a chain, in order, from its start [m, m/s].
+    """All proved transitions of a chain, in order, from a given start [m, m/s].
 
     The proof covers the `duration` [s]. It ends earlier at a `tie`, or, with `until`,
     at the end of the first event in which all blocks slide at the same instant. No time

@@ -13,7 +13,7 @@ from flint import arb, arb_poly, ctx
 from precursors.model.chain import FREE
 from precursors.proof.motion import Constants, EnclosedState, expand, force_rate
 
-# Length of a window without a transition, and time up to which polynomials hold [T].
+# Longest step, and time up to which polynomials hold, in the unit T of `motion`.
 WINDOW = 1.0
 VALID = 1.125
 
@@ -37,10 +37,10 @@ class Undecided(Exception):
 class EventFunction:
     """A function of time [T] that is positive until its block 1..N changes its state.
 
-    `direction` is 0 for the velocity of a sliding block, +1 or -1 for a stuck block's
-    margin in that direction. The function and its first two derivatives enclose those
-    of every run. A `fresh` function is zero at the transition at the start, where its
-    slope is not negative.
+    `direction` is 0 for the velocity of a sliding block, and +1 or -1 for a stuck
+    block's margin in that direction. `value`, `slope` and `bend` enclose the function
+    and its first two derivatives in every run. A `fresh` function is zero at the
+    transition at the start, where its slope is not negative.
     """
 
     block: int

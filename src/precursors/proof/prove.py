@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 FIRST_BITS = 256
 MAX_BITS = 4096
 WIDTH = "1e-40"
-# Largest number of decimals of a midpoint; a wide radius has fewer.
+# Largest number of decimals of a midpoint; it has fewer if its radius is wide.
 DECIMALS = 45
 # Radii are enlarged by this factor, so that a version of the ball arithmetic that rounds
 # differently still verifies a certificate.
@@ -68,17 +68,22 @@ def certify(
     chain : ExactChain or Chain
         Exact parameters; the doubles of a `Chain` are used exactly.
     duration : number
-        Time to prove [s]; numbers are read as written, and "1/3" is a third.
+        Length of the proved motion [s]; numbers are read as written, such as "1/3".
     until : "global slip", optional
         Stop at the end of the first event in which all blocks slide at the same
         instant.
     start_positions, start_velocities : sequences of N numbers, optional
-        At time 0 [m, m/s]; zero by default.
+        State at time 0 [m, m/s]; zero by default.
     width : number
         Largest radius of a time [s].
     max_bits : int
-        Largest working precision; a question still undecided there, within `width`, is
-        a tie.
+        Largest working precision. The proof ends with a tie at a question that stays
+        undecided, if its time is known within `width`.
+
+    Returns
+    -------
+    Certificate
+        The proved transitions, and the tie if there is one.
 
     Raises
     ------

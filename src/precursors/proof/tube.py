@@ -2,7 +2,7 @@
 transition.
 
 The state is an exact centre and a distance (see `motion`). Let e be the difference of
-two runs and f their friction. Then d|e|^2/dt = -2 sum e_{u_i} e_{f_i}. The distance is
+two runs, and f the friction. Then d|e|^2/dt = -2 sum e_{u_i} e_{f_i}. The distance is
 therefore constant while both runs have the same modes. They make a transition at
 different instants, which changes the distance as follows.
 

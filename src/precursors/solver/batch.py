@@ -1,4 +1,4 @@
-"""Run chains of equal length in the compiled kernel, and turn its records into runs."""
+"""Run chains of equally many blocks in the kernel, and turn its records into runs."""
 
 import threading
 from collections.abc import Iterator, Sequence
@@ -15,8 +15,8 @@ from precursors.support.waiting import bar
 
 # Stored states are thinned so that they take no more memory than this.
 STATES_BYTES = 64 * 2**20
-# The kernel returns after this many windows, so that Ctrl-C takes effect within about a
-# second.
+# The kernel returns after this many windows (steps of time), so that Ctrl-C takes
+# effect within about a second.
 WINDOWS_PER_CALL = 500_000
 # Capacity of a thread's record, in transitions.
 SHARED_ROOM = 8192
@@ -32,16 +32,16 @@ class TransitionLimitError(RuntimeError):
 
 
 class _Room(threading.local):
-    """Arrays of a thread, reused from call to call, into which the kernel writes.
+    """Arrays of a thread, into which the kernel writes in call after call.
 
-    For chains of one length they hold rows of transitions, and states every `stride`
-    transitions.
+    They hold rows of transitions, and states every `stride` transitions, of chains with
+    the same number of blocks.
     """
 
     n_blocks = 0
 
     def fit(self, n_blocks: int) -> None:
-        """Allocate the arrays again if the chains have another length."""
+        """Allocate the arrays again if the number of blocks has changed."""
         if n_blocks == self.n_blocks:
             return
         # With this stride, storing takes little time compared with the transitions.
@@ -62,8 +62,8 @@ def run_batch(
     velocities: FloatArray,
     end: kernel.End,
 ) -> Iterator[Run]:
-    """Run chains of equal length one after the other, in as few calls of the kernel as
-    possible.
+    """Run chains of equally many blocks one after the other, in as few calls of the
+    kernel as possible.
 
     All calls in a thread share its arrays: exhaust one iterator before starting
     another.
@@ -120,7 +120,7 @@ def _runs(
     Raises
     ------
     TransitionLimitError
-        If one met a limit.
+        If a run met a limit.
     """
     transitions = np.empty(len(record), TRANSITION)
     for name, column in zip(COLUMNS, record.T, strict=False):
@@ -176,7 +176,7 @@ def _longer_record(record: FloatArray, run: np.void) -> FloatArray:
 def _longer_states(states: FloatArray, run: np.void) -> FloatArray:
     """Return the stored states of a run, doubled if they are full.
 
-    Every second one is dropped if they would take more than `STATES_BYTES`.
+    If they would take more than `STATES_BYTES`, every second state is dropped.
     """
     rows = len(states)
     if run["stored"] < rows:

@@ -19,8 +19,8 @@ from precursors.solver.simulate import (
 from precursors.support.compiled import untyped
 from precursors.support.waiting import in_threads
 
-# Chains of a batch: many reduce the work between batches, few let all threads end at
-# about the same time.
+# Large batches reduce the work between batches; small ones let all threads end at about
+# the same time.
 LARGEST_BATCH = 64
 BATCHES_PER_THREAD = 8
 MOST_THREADS = 1024
@@ -34,17 +34,17 @@ def simulate_many(
     start_positions: Sequence[ArrayLike] | None = None,
     start_velocities: Sequence[ArrayLike] | None = None,
 ) -> list[Run]:
-    """Run an ensemble on all cores. Every run equals that of `simulate` bit for bit.
+    """Run many chains on all cores; each run equals that of `simulate` bit for bit.
 
     Parameters
     ----------
     chains : iterable of Chain
         The chains, which may have different numbers of blocks.
     duration, until
-        As in `simulate`, for all of them.
+        As in `simulate`, the same for all chains.
     threads : int, optional
-        Number of threads, at most 1024; by default Numba's, which is one per core of
-        this process.
+        Number of threads, at most 1024; by default one per core of this process, or
+        NUMBA_NUM_THREADS.
     start_positions, start_velocities : sequence of array_like, optional
         One start for each chain, as in `simulate`.
 
@@ -57,7 +57,7 @@ def simulate_many(
     Raises
     ------
     TransitionLimitError
-        If one of them meets a limit of `simulate`.
+        If a run meets a limit of `simulate`.
     """
     if isinstance(chains, Chain):
         raise TypeError("simulate_many needs a list of chains, but got a Chain")
@@ -105,7 +105,7 @@ def _starts(
 
 
 def _batches(chains: Sequence[Chain], threads: int) -> Iterator[list[int]]:
-    """Yield the indices of chains of equal length, one batch at a time."""
+    """Yield batches of indices of chains with the same number of blocks."""
     most = min(LARGEST_BATCH, max(1, len(chains) // (threads * BATCHES_PER_THREAD)))
     by_length: dict[int, list[int]] = {}
     for j, chain in enumerate(chains):

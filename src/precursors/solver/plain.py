@@ -10,14 +10,14 @@ linearly in time. With the force T_i in the spring behind each block, its stiffn
     dT_i/dt = c_i (v_{i-1} - v_i),
     m dv_i/dt = T_i - T_{i+1} - mode_i mu_k w_i    where block i slides.
 
-1. In a short window, Taylor series of `ORDER` terms are exact to rounding. Blocks far
-  ahead of the front need no series.
+1. Time is cut into short windows, in which Taylor series of `ORDER` terms are exact to
+  rounding.
 2. The event function of a sliding block is its velocity. A sticking block has two: its
   margins mu_s w_i -+ (T_i - T_{i+1}). The earliest root of all of them is the next
   transition.
-3. If |g''| <= M, the positive root of g + g' s - M s^2/2 is a safe step: no root of g
-  lies before it. Such steps converge to the first root, or prove that the window has
-  none.
+3. Let g be an event function with |g''| <= M. The positive root of g + g' s - M s^2/2
+  is a safe step: no root of g lies before it. Such steps converge to the first root, or
+  prove that the window has none.
 4. A block that stops sticks if |T_i - T_{i+1}| <= mu_s w_i, and otherwise slides in the
   direction of that force. A block that is released slides in the direction of the
   force.
@@ -51,8 +51,9 @@ EXPONENT = np.maximum(N[None, :] - N[:, None], 0)
 class Switching(NamedTuple):
     """Rules of the transitions.
 
-    A block that stops sticks if |F| <= `sticks_within` [N], shape (N,), which is mu_s w
-    in the model (Eq. 5). `backward` is whether blocks can slide backward.
+    A block that stops sticks if its net force is at most `sticks_within` [N], shape
+    (N,), which is mu_s w in the model (Eq. 5). `backward` is whether blocks can slide
+    backward.
     """
 
     sticks_within: Floats
@@ -127,7 +128,7 @@ def expand(chain: Chain, state: State, window: float) -> tuple[Floats, Floats]:
 
 
 def move(state: State, v: Floats, force: Floats, s: float) -> State:
-    """Return the state at s. The smallest terms are summed first."""
+    """Return the state at s; the smallest terms are summed first."""
     terms = s ** N[:, None]
     return State(
         (v * terms)[::-1].sum(axis=0), (force * terms)[::-1].sum(axis=0), state.mode

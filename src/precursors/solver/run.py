@@ -120,10 +120,10 @@ class Run(Record):
     start_positions, start_velocities : array, shape (N,)
         State at time 0 [m], [m/s].
     states : States
-        Stored states from which `at` computes others.
+        Stored states, from which `at` computes all others.
     evaluations : float
-        Number of evaluations of the forces on the whole chain by the solver; each
-        derivative counts as one.
+        How many times the solver computed the forces on all blocks; each term of a
+        Taylor series counts as one time.
     """
 
     start_positions: FloatArray
@@ -156,7 +156,7 @@ class Run(Record):
         """Return spring forces [N] and velocities [m/s], shape (2, len(times),
         n_blocks).
 
-        They are those of the first `n_blocks` blocks, by default of all.
+        Only the first `n_blocks` blocks are returned, by default all.
         """
         # Imported here: reading a run must not load Numba.
         from precursors.solver import kernel

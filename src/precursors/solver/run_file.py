@@ -55,8 +55,8 @@ def write_record(record: Record, path: AnyPath) -> None:
         **{name: getattr(record.chain, name) for name in [*SCALARS, "theta"]},
         **{name: x for name, x in vars(record).items() if isinstance(x, Real)},
     }
-    # Texts have a fixed length. HDF5 has no checksum for others, and may hang if they
-    # are damaged.
+    # Texts have a fixed length: HDF5 has no checksum for texts of variable length, and
+    # may hang if they are damaged.
     attributes = {
         name: np.bytes_(value.encode()) if isinstance(value, str) else value
         for name, value in attributes.items()
@@ -111,14 +111,14 @@ def read_record(path: AnyPath) -> dict[str, Any]:
         raise FileNotFoundError(
             f"{path} is not a file" if Path(path).exists() else f"{path}: no such file"
         )
-    # Read first: HDF5 needs file locks, which some file systems lack.
+    # Read into memory: HDF5 needs file locks, which some file systems lack.
     memory = BytesIO(Path(path).read_bytes())
     try:
         with h5py.File(memory, "r") as file:
             if "load_points" in file:
                 raise RunFileError(
-                    f"{path} is a run of a larger chain, which commit {LAST_LARGER} was "
-                    f"the last to have: git checkout {LAST_LARGER} reads it"
+                    f"{path} is a run of an older model, which this version cannot "
+                    f"read: git checkout {LAST_LARGER} reads it"
                 )
             return _content(file)
     except RunFileError:

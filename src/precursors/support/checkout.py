@@ -10,8 +10,8 @@ COMMIT_FILE = "commit.json"  # result of `git_state` when the wheel was built
 
 
 def git_state(root: Path, ignored: str = "") -> dict[str, str | bool] | None:
-    """Return the commit of the sources, its identifiers, and whether files have
-    changed, other than those in the folder `ignored`.
+    """Return the commit of the sources, its identifiers, and whether files outside the
+    folder `ignored` have changed.
 
     The software hash identifiers (SWHID) are git's own hashes. The result is None if
     git does not track the sources.

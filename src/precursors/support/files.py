@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import pandas as pd
 
 AnyPath = str | os.PathLike[str]
-LONGEST_NAME = 240  # bytes of 255; a temporary name is longer
+LONGEST_NAME = 240  # bytes; file systems allow 255
 LEAST_ROOM = 10_000_000  # free bytes; a run of 10 s and its figure need less
 MOST_READ = 100_000_000  # bytes of a text; an hour of F_X at 1 kHz has fewer
 

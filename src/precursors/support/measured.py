@@ -29,8 +29,8 @@ class Quantity:
     """A quantity that a column may hold.
 
     `symbol` and `unit` are those of this library. A column has the quantity if its name
-    is one of `names`, or one of `words` in any case. `units` are the units that are
-    read, in terms of `unit`.
+    is one of `names`, or one of `words` in capital or small letters. `units` has the
+    size of each unit that is read, in terms of `unit`.
     """
 
     symbol: str
@@ -83,8 +83,8 @@ class Match(NamedTuple):
 class Table(NamedTuple):
     """A table of text.
 
-    `lines` are the line numbers of its rows in a file, or count from 1 in a DataFrame,
-    whose `separator` is empty.
+    `lines` are the line numbers of its rows in the file. For a DataFrame they count
+    from 1, and `separator` is empty.
     """
 
     names: Sequence[str]

@@ -1,16 +1,17 @@
 """The compiled kernel: a fast version of the method in `solver.plain`.
 
 Between two transitions the blocks that slide obey a linear system with constant
-friction and a load that grows linearly in time (Eqs. 2-6). The kernel sums its solution
-as a Taylor series to rounding, in windows short enough for some twenty terms. The next
-transition is the earliest root of all event functions. They are the velocity of a
-sliding block, which then stops, and the margins mu_s w_i -+ F_i of a sticking block,
-which is then released (F_i is the net force of its springs).
+friction and a load that grows linearly in time (Eqs. 2-6). The kernel cuts time into
+windows, so short that a Taylor series of some twenty terms is exact to rounding. The
+next transition is the earliest root of all event functions. The event function of a
+sliding block is its velocity; at the root the block stops. Those of a sticking block
+are its margins mu_s w_i -+ F_i, where F_i is the net force of its springs; at a root
+the block is released.
 
 In each window the kernel guesses the first root from a few terms and moves there. It
 then proves that no event function vanishes earlier, for four blocks at a time
-(`proof`). If the guess is bad, the proof fails and no harm is done: the functions
-without a proof are searched by safe steps, as `plain` does for every function.
+(`proof`). If the guess is bad, the proof fails. The functions without a proof are then
+searched by safe steps, as `plain` does for every function.
 
 Forces are in N, and times in units of tau, the inverse of a bound of the chain's
 largest frequency. Displacements are multiplied by m/tau^2, so velocities are in N/tau
@@ -35,7 +36,7 @@ drive, and columns 1..N are the blocks. Further columns are padding for groups o
 | `safe_step` | `roots.safe_step` |
 | `first_root` | `roots.first_root`, for functions that `proof.prove` leaves undecided |
 | `next_transition` | `events.next_transition`: `guess`, `find_root`, `prove`, `search` |
-| its last lines | `friction.mode_at_rest` |
+| last lines of `next_transition` | `friction.mode_at_rest` |
 | `find_transitions` | `events.find_transitions`: `rest` if all stick, else `slide` |
 """
 

@@ -9,8 +9,7 @@ _options: dict[str, Any] = {"error_model": "numpy"}
 # Numba makes no Python wrapper for these functions, so Python crashes if it calls them.
 # Their attribute `py_func` is the original function.
 _within = {**_options, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-# `unfused` functions must not fuse products with sums: the event loop, starts and
-# units.
+# `unfused` functions (event loop, starts and units) must not fuse products with sums.
 inner: Any = untyped.njit(**_within, fastmath={"contract"}, forceinline=True)
 seldom: Any = untyped.njit(**_within, fastmath={"contract"})
 unfused: Any = untyped.njit(**_within)

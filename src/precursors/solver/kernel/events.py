@@ -235,7 +235,7 @@ def start_clock(wait, progress):
 
 @inner
 def count_sliding(more, i, motion, progress):
-    """Count the sliding blocks, and note whether all whose load counts slide at
+    """Count `more` sliding blocks, and note whether all blocks that bear load slide at
     once."""
     progress.sliding += more
     if motion[BEARS_LOAD, i] > 0.0:
@@ -303,9 +303,7 @@ def slide(chain, motion, end, progress, record):
 def next_transition(window, roundings, chain, motion, progress):
     """Move to the first transition in a window; return (time, block, side).
 
-    Without a transition these are (window, 0, 1). The transition is guessed, and a
-    proof for all blocks shows that none comes earlier. A wrong guess only costs time:
-    the functions of blocks for which the proof fails are searched.
+    Without a transition these are (window, 0, 1).
     """
     end = last_column(chain, progress.farthest)
     begin(end, motion)
@@ -340,6 +338,6 @@ def next_transition(window, roundings, chain, motion, progress):
 def last_column(chain, farthest):
     """Return the last column of the groups that can move or feel a motion.
 
-    No block beyond the one after `farthest` feels that it slides.
+    Block `farthest` slides; its motion is felt up to the next block.
     """
     return WIDTH * ((min(farthest + 1, chain.n_blocks) + WIDTH - 1) // WIDTH)

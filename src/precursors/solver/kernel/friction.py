@@ -65,10 +65,7 @@ def mode_at_rest(force, limit):
 
 @seldom
 def is_at_rest(chain, motion):
-    """Whether nothing moves but the drive.
-
-    Then all blocks stick, apart from those without load that were never pushed.
-    """
+    """Whether nothing moves but the drive (see `plain.is_at_rest`)."""
     for i in range(1, chain.n_blocks + 1):
         is_pushed = (
             motion[SPRING_FORCE, i] != motion[SPRING_FORCE, i + 1]

@@ -19,15 +19,15 @@ from precursors.solver.kernel.series import powers
 # A root this near to the start is left to the search, because a block that has just
 # begun to move has its last transition there.
 NEAR = 1e-6
-# The window ends at MARGIN times the guess, so that it needs fewer rows, but at LEAST
-# of its length.
+# The window is shortened to MARGIN times the guess, so that it needs fewer rows, but
+# not below the share LEAST.
 MARGIN = 1.2
 LEAST = 0.125
 # Steps to the root: the first use the terms of the guess, the others use all terms.
 EARLY_STEPS = 2
 STEPS = 6
-# The error of Halley's method is of the order of the cube of its step, so after a step
-# this short, relative to the time, it is negligible.
+# After a step this short, relative to the time, the error is negligible: in Halley's
+# method it is of the order of the cube of the step.
 LAST_STEP = 2e-6
 
 

@@ -5,8 +5,8 @@ from itertools import count
 
 import numpy as np
 
-# Blocks are processed in groups of four. As many columns follow block N: the free end,
-# and padding.
+# Blocks are processed in groups of four. Four columns follow block N: the free end, and
+# padding.
 WIDTH = 4
 # Longest window, times the bound of the chain's largest frequency.
 WINDOW = 1.5
@@ -30,7 +30,7 @@ ORDER = order_for(WINDOW)
 # Order for a time s within a window: ORDERS[int(PARTS * s)].
 PARTS = 64 / WINDOW
 ORDERS = np.array([order_for(min((k + 1) / PARTS, WINDOW)) for k in range(65)])
-# Rows of the Taylor arrays; that of a net force begins one row later.
+# Rows of the Taylor arrays; the series of a net force begins one row later.
 ROWS = ORDER + 2
 # Columns for the terms of a series, in complete groups.
 TERMS = ROWS + 2 * WIDTH

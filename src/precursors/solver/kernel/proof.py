@@ -1,7 +1,7 @@
 """Prove that no transition comes before the guessed one; search if the proof fails.
 
-The proof shows that an event function has no root before the end. Let g be a power
-series in u on [0, 1] with the terms a_n:
+The proof shows that an event function g has no root before the time reached. Let u be
+the share of this time. On [0, 1], g is a power series in u with the terms a_n:
 
     g(u) = a_0 + a_1 u + ... + a_5 u^5 + u^6 r(u),    r(u) = a_6 + a_7 u + a_8 u^2 + ...
 
@@ -20,9 +20,8 @@ between its smallest and largest coefficients, so g lies between
     min(b_0, ..., b_5, g(1), (6 b_5 + g(1) - R) / 7)  and
     max(b_0, ..., b_5, g(1), (6 b_5 + g(1) + R) / 7).
 
-If the lower bound is not negative then g > 0 on (0, 1), because each Bernstein
-polynomial is positive there. The only exception is a lower bound that is zero
-everywhere.
+If the lower bound is not negative, then g > 0 on (0, 1) unless all coefficients are
+zero, because each Bernstein polynomial is positive there.
 """
 
 import math

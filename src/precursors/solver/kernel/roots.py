@@ -25,8 +25,8 @@ def zero_below(i, roundings, motion):
     """Return the size below which a force on block i, or the velocity that it causes in
     the window, counts as zero.
 
-    It follows from the forces, and from the change of them by the motion of the
-    neighbours within the window.
+    It is proportional to the forces, and to their change by the motion of the block and
+    its neighbours within the window.
     """
     springs = abs(motion[SPRING_FORCE, i]) + abs(motion[SPRING_FORCE, i + 1])
     still = springs + motion[STRENGTH, i]

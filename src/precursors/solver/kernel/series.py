@@ -126,11 +126,7 @@ def sum_series(i, order, motion):
 
 @inner
 def move(s, end, chain, motion):
-    """Move blocks 1..end to time s of the window, from the rows of its start.
-
-    Forces are carried in two doubles, because rounding to one would be the largest
-    error of a run.
-    """
+    """Move blocks 1..end to time s of the window, from the rows of its start."""
     order = order_at(s)
     powers(s, order, WEIGHT, motion)
     left = lanes.spread(chain.drive_velocity * s)

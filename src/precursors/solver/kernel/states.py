@@ -138,7 +138,7 @@ def should_compile_evaluation() -> bool:
 
 @inner
 def take_state(row, states, chain, motion):
-    """Take a stored state."""
+    """Make a stored state the present one."""
     for i in range(1, chain.n_blocks + 1):
         motion[VELOCITY, i] = states.velocity[row, i - 1] / chain.speed
         motion[SPRING_FORCE, i] = states.force[row, i - 1]
