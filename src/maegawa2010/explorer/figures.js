@@ -160,7 +160,7 @@ function showLoad() {
   const high = seen.reduce((a, b) => Math.max(a, b), 1e-9);
   const low = isRun ? 0 : seen.reduce((a, b) => Math.min(a, b), high);
   const room = 0.1 * (high - low || 1), up = [isRun ? 0 : low - room, high + room];
-  const label = "Load F_X [N]", [along] = timeAxis(window, width);
+  const label = "Push F_X [N]", [along] = timeAxis(window, width);
   const { x, y, box } = axes(context, width, height, [start, end], up, [null, label], along);
   const level = y(run.slider.mu_k * run.slider.normal_load);
   context.strokeStyle = context.fillStyle = palette.ink;
@@ -193,7 +193,7 @@ function showLengths() {
   const [context, width, height] = clear(element("lengths")), { n, counted } = run;
   const { mu_k, normal_load } = run.slider, events = upToGlobal(run.events);
   const highest = Math.max(1e-9, ...events.map(of("before")), mu_k * normal_load);
-  const labels = ["Load F_X [N]", "Front length L_p / L"];
+  const labels = ["Push F_X [N]", "Front length L_p / L"];
   const { x, y, box } = axes(context, width, height, [0, 1.06 * highest], [0, 1.08], labels);
   let friction = 0;
   const line = run.weights.map((load, i) => [x((friction += mu_k * load)), y((i + 1) / n)]);
@@ -212,7 +212,7 @@ function showLengths() {
   const points = counted.map((e) => `${counts(e.front, "block")} at ${quantity(e.before, "N")}`);
   setHtml("lengths-key", keyOf("dot", new Set(counted.map(kindOf))) +
     (areShort ? "<span><b>×</b> shorter than an earlier one, not counted</span>" : ""));
-  setName("lengths", `Front length against load: ${points.join(", ").slice(0, 900)}`);
+  setName("lengths", `Front length against push: ${points.join(", ").slice(0, 900)}`);
 }
 
 // Draw the study of a step.

@@ -155,12 +155,12 @@ function showAnswers() {
   const isSame = (one) => Object.keys(one).every((key) => one[key] === slider[key]);
   const isProved = PROVED.some((one) => isSame(one.slider) && slip?.end <= one.duration);
   const searched = stopped ? "until then" : end < DURATION ? "so far" : `in ${DURATION} s`;
-  setHtml("answers", !slip ? `No global slip ${searched} · largest load ${ratio()} F_Z`
+  setHtml("answers", !slip ? `No global slip ${searched} · largest push ${ratio()} F_Z`
     : `${counts(counted.length, "event")}, counted as in ${word("fig13")} · ${word("apparent")} =
       ${ratio()} · first global slip at ${quantity(slip.onset, "s")}
       ${isProved ? ` · ${word("proved")}` : ""}`);
-  const lost = `Beyond ${until} not ${word("predictable")} in double precision;
-    ${slip ? word("apparent") : "the load"} of this run is one draw.`;
+  const lost = `The motion is not ${word("predictable")} beyond ${until} in double precision;
+    ${slip ? word("apparent") : "the push"} of this run is one draw of many.`;
   const reach = known < end ? `until ${until}, where rounding errors take over`
     : `for all of its ${until}`;
   setHtml("trust", (stopped ? `Stopped at ${quantity(end, "s")}, after many transitions. ` : "") +

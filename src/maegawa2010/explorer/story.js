@@ -11,19 +11,19 @@ const WORDS = {
   bars: ["bar", "The net force of the springs on the block."],
   frames: ["frame", "The limit of static friction: μ_s times the normal load of the block."],
   blocks: ["block", "The front: the farthest block that this slip reaches."],
-  line: ["dashed line", `F_X − μ_k W: the load at the onset of the slip, minus the kinetic friction
-    of all blocks from the trailing edge up to this point, whose normal load is W.`],
-  load: ["F_X", "Tangential load: the force of the drive on block 1."],
-  stairs: ["stairs", "The force in each spring, from the drive’s spring on the left to the last."],
+  line: ["dashed line", `F_X − μ_k W: the push at the onset of the slip, minus the kinetic friction
+    of all blocks from the trailing edge up to this point. W is the normal load of these blocks.`],
+  load: ["F_X", "The push (tangential load): the force of the drive on block 1."],
+  stairs: ["stairs", "The push in each spring, from the drive’s spring on the left to the last spring."],
   added: ["colour", "Push that this slip adds to the springs."],
   released: ["grey", "Push that this slip takes from the springs."],
-  front: ["front length L_p", `How far into the row a slip gets, from the trailing edge. L is the
+  front: ["front length L_p", `How far a slip reaches into the row from the trailing edge. L is the
     length of the row.`],
   drive: ["drive", "It moves with the speed V and pushes block 1 through a spring of stiffness K."],
-  apparent: ["μ_sapp", `Apparent static friction: the largest F_X up to the first global slip,
+  apparent: ["μ_sapp", `Apparent static friction: the largest push F_X up to the first global slip,
     divided by the normal load F_Z of the row.`],
-  arrows: ["arrows", "The normal loads w of the blocks. Their sum is F_Z, whatever the tilt."],
-  fig13: ["Fig. 13", `The paper’s figure of front length against load. It leaves out events that
+  arrows: ["arrows", "The normal loads w of the blocks. Their sum is F_Z for every θ."],
+  fig13: ["Fig. 13", `The paper’s figure of front length against push. It leaves out events that
     are shorter than an earlier one, and ends with the first global slip.`],
   proved: ["✓ proved", `The transitions up to the first global slip are proved: no rounding error
     can change their order.`],
@@ -33,7 +33,7 @@ const WORDS = {
 const twoDigits = (x) => x.toFixed(2);
 const SLIDERS = {
   theta: {
-    symbol: "θ", name: "tilt of the load, theta", range: [-0.99, 0.99], step: 0.01,
+    symbol: "θ", name: "tilt of the normal load, theta", range: [-0.99, 0.99], step: 0.01,
     write: fraction,
     about: `Distribution of the normal load. Negative: more at the trailing edge. 0: the same on
       each block. Positive: more at the leading edge.`,
@@ -48,11 +48,12 @@ const SLIDERS = {
   },
   mu_k: {
     symbol: "μ_k", name: "kinetic friction, mu k", range: [0, 1.5], step: 0.01,
-    write: twoDigits, about: "The friction on a sliding block is μ_k w, at most μ_s w.",
+    write: twoDigits, about: "The friction on a sliding block is μ_k w. μ_k is at most μ_s.",
   },
   drive_stiffness: {
     symbol: "K", name: "stiffness of the drive, K", range: [1e4, 1e8],
-    write: (x) => `${digits(x / 1e6)} MN/m`, about: "Spring between the drive and block 1.",
+    write: (x) => `${digits(x / 1e6)} MN/m`,
+    about: "Stiffness of the spring between the drive and block 1.",
   },
   drive_velocity: {
     symbol: "V", name: "speed of the drive, V", range: [1e-6, 0.1],
@@ -81,52 +82,53 @@ const STEPS = [
     plays: true, shows: "slip",
     text: (word) => `The slider is modelled as a row of blocks with springs between them,
       and the ${word("drive")} pushes the first block. The ${word("bars")} under a block shows the
-      net force of its springs, and the ${word("frames")} its limit of static friction. <b>A block slips
-      when its bar reaches its frame.</b> The blocks slip one after another from the trailing edge,
-      here up to ${word("blocks")}; the others stay stuck. This is a ${word("precursor")} of the
-      slip of the whole row.`,
+      net force of its springs. The ${word("frames")} shows its limit of static friction. <b>A block
+      slips when its bar reaches its frame.</b> The blocks slip one after another from the pushed end,
+      the trailing edge, here up to ${word("blocks")}. The other blocks stay stuck. Such a partial
+      slip is a ${word("precursor")} of the slip of the whole row.`,
   },
   {
     name: "Push", title: "Where does it stop?", scene: UNIFORM, pick: "longer", view: "event",
     plays: true,
     text: (word) => `The ${word("stairs")} show the push in each spring: the thin line before
       the slip, the thick line now. The slip adds the ${word("added")} area and removes the
-      ${word("released")} one. The ${word("line")} is the load ${word("load")} minus the kinetic
+      ${word("released")} one. The ${word("line")} is the push ${word("load")} minus the kinetic
       friction of the blocks up to this point. <b>The farthest slips stop where friction has used up
-      the push.</b> This one reaches ${word("blocks")}<span data-reason></span> Press → for the next
-      slip: the ${word("front")} grows with the load, apart from a shorter slip now and then.`,
+      the push.</b> This slip reaches ${word("blocks")}<span data-reason></span> Press → for the next
+      slip: the ${word("front")} grows with the push, apart from a shorter slip now and then.`,
   },
   {
-    name: "Mean", title: "What does not depend on the loading?", scene: nearTheta(1),
+    name: "Mean", title: "What does the tilt not change?", scene: nearTheta(1),
     pick: "global", view: "all", study: drawMeans,
-    text: (word) => `When the line reaches the leading edge, the whole row slides: a
-      ${word("global")}. From then on ${word("load")} rises and falls, and its peaks depend on the
-      loading. <b>Its mean over a long time does not: it is the kinetic friction μ_k F_Z</b>, because
-      the drive does as much work as friction takes. Move N: with more blocks the peaks fall. The
-      peak at the first global slip, ${word("apparent")}, falls to
+    text: (word) => `From the first ${word("global")} on, the push
+      ${word("load")} rises and falls. Its peaks depend on θ, the tilt of the normal load. <b>Its mean
+      over a long time does not depend on θ: it is the kinetic friction μ_k F_Z</b>, because the drive
+      does as much work as friction takes. Move N: with more blocks the peaks fall. At the first
+      global slip, ${word("apparent")} falls to
       ${ofTilts(({ finest }) => finest.mu_sapp.toFixed(3))} with ${TILTS[0].finest.n_blocks} blocks
-      (medians with ${digits(DATA.noise)} % noise in the loads). <b>So the paper’s
-      ${twoDigits(PAPERS)} depends on its ten blocks.</b> Set μ_k very low: blocks then slide
+      (medians with ${digits(DATA.noise)} % noise in the normal loads). <b>So the paper’s
+      ${twoDigits(PAPERS)} depends on its ten blocks.</b> If μ_k is very low, blocks slide
       backward, and the mean is above μ_k F_Z.`,
   },
   {
     name: "Peak", title: "When does the whole row slide?", scene: UNIFORM, pick: "global",
     view: "event", plays: true,
-    text: (word) => `Each slip relaxes the spring of the ${word("drive")} a little, but the load
+    text: (word) => `Each slip relaxes the spring of the ${word("drive")} a little, but the push
       ${word("load")} keeps growing. When it is about μ_k F_Z, where F_Z is the normal load of the
       whole row, the ${word("line")} reaches the leading edge. A wave then runs through the row, and
-      all blocks slide: a ${word("global")}. So the row slips at <b>${ratio()} F_Z</b>, although each
-      block can hold ${twoDigits(state.slider.mu_s)} times its normal load. This ratio is
-      ${word("apparent")}.`,
+      all blocks slide: a ${word("global")}. The row slips at a push of <b>${ratio()} F_Z</b>,
+      although each block can hold ${twoDigits(state.slider.mu_s)} times its normal load. The push at
+      this slip, divided by F_Z, is ${word("apparent")}.`,
   },
   {
-    name: "Tilt", title: "What does the normal load do?", scene: nearTheta(-1), pick: "partial",
-    text: (word) => `The ${word("arrows")} show the normal load of each block. θ tilts it, which
-      bends the ${word("line")}. With more load at the trailing edge the line falls early, so
-      precursors are few and late; with less load there, they are many and early. For every tilt the
-      line ends at F_X − μ_k F_Z. At the paper’s three tilts ${word("apparent")} differs by only
-      ${SPREAD.toFixed(4)}. <b>Change the tilt by ${digits(DATA.tilted.theta)}, and the values no
-      longer agree</b>.</p><p class="bar">${BUTTONS.map(({ slider: { theta }, mu_sapp }) =>
+    name: "Tilt", title: "What does the tilt change?", scene: nearTheta(-1), pick: "partial",
+    text: (word) => `The ${word("arrows")} show the normal load of each block. θ tilts the
+      normal loads, and the ${word("line")} bends. With more normal load at the trailing edge the line
+      falls early, so precursors are few and late. With less normal load there, they are many and
+      early. For every θ the line ends at F_X − μ_k F_Z. At the paper’s three θ,
+      ${word("apparent")} differs by only ${SPREAD.toFixed(4)}. <b>At
+      θ = ${digits(DATA.tilted.theta)}, ${word("apparent")} is
+      different</b>.</p><p class="bar">${BUTTONS.map(({ slider: { theta }, mu_sapp }) =>
       `<button type="button" data-theta="${theta}">θ = ${fraction(theta)}
       <br>${mu_sapp?.toFixed(4) ?? "–"}</button>`).join("")}`,
   },
@@ -135,9 +137,9 @@ const STEPS = [
     study: drawDigits,
     text: (word) => `The paper prints its inputs with one to three digits:
       μ_s = ${twoDigits(UNIFORM.slider.mu_s)} stands for any value from
-      ${range(UNIFORM.slider.mu_s, HALF_DIGIT.mu_s, 3)}, and V for any from
+      ${range(UNIFORM.slider.mu_s, HALF_DIGIT.mu_s, 3)}, and V for any speed from
       ${range(1e3 * UNIFORM.slider.drive_velocity, 1e3 * HALF_DIGIT.drive_velocity, 2)} mm/s. Each dot is
-      a random slider whose inputs round to the printed ones. Only
+      a slider with random inputs that round to the printed ones. Only
       ${ofTilts(({ within: { k, n } }) => Math.round((100 * k) / n))} % have the printed
       ${word("apparent")}, ${BAND.map(twoDigits).join(" to ")}, and
       <b>${ALL_SIX ? `${ALL_SIX[0] || "none"} of ${ALL_SIX[1]}` : "few"} have all six numbers of the

@@ -76,7 +76,7 @@ function drawMeans(context, width, height) {
   return {
     key: `${keyTo("box", "ink", "mean from the first global slip to the last")}
       ${keyTo("box", "unsure", "single slips are not predictable, but the mean is")} dashed: μ_k`,
-    name: `F_X/F_Z over time for three loadings. ${means.join("; ")}`,
+    name: `F_X/F_Z over time for three distributions of the normal load. ${means.join("; ")}`,
   };
 }
 // Mean and peak of F_X/F_Z from the onset of the first global slip to that of the last, if there are
