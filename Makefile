@@ -6,7 +6,7 @@ BIN := .venv/bin
 READY := .venv/ready
 DEV := .venv/dev
 LOCK := pyproject.toml --universal --python-version 3.11 --generate-hashes --no-emit-index-url --no-header -q
-# Without bytecode every job would compile its imports again.
+# With this variable every job would compile its imports again.
 unexport PYTHONDONTWRITEBYTECODE
 # uv and Snakemake need a cache directory, even if the home directory is not writable.
 ifeq ($(XDG_CACHE_HOME)$(shell test -w "$$HOME" && echo home),)
@@ -22,13 +22,13 @@ all: results
 test: results $(DEV)
 	$(BIN)/pytest -n $(CORES) --dist worksteal
 
-# Runs the ensembles as jobs of a real SLURM. Error 77 means that there is none, and that nothing was tested.
+# Runs the ensembles as jobs of a real SLURM. Error 77 means that SLURM is missing and nothing was tested.
 test-cluster: $(DEV)
 	@CORES=$(CORES) tests/cluster/run
 
 results: $(READY)
 	@$(BIN)/snakemake --quiet rules host -c$(CORES) all || { status=$$?; [ -z "$$(ls .snakemake/locks 2>/dev/null)" ] || \
-	  echo "make: another run is at work here, or one was killed. If none is: $(BIN)/snakemake --unlock && make $(MAKECMDGOALS)" >&2; \
+	  echo "make: another run is at work here, or a run was killed. If it was killed: $(BIN)/snakemake --unlock && make $(MAKECMDGOALS)" >&2; \
 	  exit $$status; }
 
 # Checks the existing results without recomputing them.
@@ -39,11 +39,11 @@ check: $(READY)
 report: results
 	$(BIN)/snakemake --report results/report.html --report-stylesheet workflow/report/report.css -- all
 
-# Makes all files of codecheck.yml again from nothing and compares them with tests/golden.
+# Makes all files of codecheck.yml again from the beginning and compares them with tests/golden.
 codecheck: $(READY)
 	$(BIN)/snakemake --quiet rules host -c$(CORES) --forceall $$($(BIN)/python workflow/scripts/codecheck.py --list)
 	@$(BIN)/python workflow/scripts/codecheck.py
-	@# Files made from these are made again, too, so that `make all` has nothing left to do.
+	@# Also update the results that depend on these files, so that `make all` has nothing left to do.
 	@$(BIN)/snakemake --quiet rules host -c$(CORES) all
 
 golden: results $(DEV)
@@ -56,7 +56,7 @@ docs: $(DEV)
 bench: $(READY)
 	$(BIN)/python benchmarks/bench.py $(if $(filter-out undefined,$(origin METHOD)),--method "$(METHOD)")
 
-# The long studies that the article shows: half an hour with nothing else running, because two of them measure times.
+# Makes the long studies that the article shows, in half an hour. Two of them measure times, so run nothing else meanwhile.
 article: $(READY)
 	$(BIN)/snakemake --quiet rules host -c1 --directory full --configfile config.yaml workflow/full.yaml -- article
 
@@ -88,7 +88,7 @@ $(READY): requirements.lock
 	touch $(READY)
 
 $(DEV): $(READY) requirements-dev.lock
-	@# Compile the auditor, which only tests use here.
+	@# Compile the auditor, which the workflow does not use but the tests do.
 	$(BIN)/python -c "from precursors import Chain, audit, simulate; audit(simulate(Chain.from_slider(), 0.4))" & \
 	$(BIN)/uv pip install -q -p $(BIN)/python --require-hashes --build-constraints requirements-dev.lock -r requirements-dev.lock && wait
 	touch $(DEV)

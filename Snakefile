@@ -6,11 +6,11 @@ min_version("9.20")
 report: "workflow/report/workflow.rst"
 
 
-include: "workflow/common.smk"  # config.yaml, its scenes and their chains, digests of code
+include: "workflow/common.smk"  # the configuration, and names that all rules share
 # The paper
 include: "workflow/rules/scenes.smk"  # every transition, slips, mu_sapp, Figs. 10-13
 include: "workflow/rules/paper.smk"  # Eq. 15, claims, Fig. 9, paper.pdf, supplement.pdf
-# Studies on which claims or other studies rest; `snakemake --list` describes each
+# Studies on which claims or other studies rest; `snakemake --list` describes each of them
 include: "workflow/studies/noise/rules.smk"
 include: "workflow/studies/printed_digits/rules.smk"
 include: "workflow/studies/resolution/rules.smk"
@@ -21,14 +21,14 @@ include: "workflow/studies/balance/rules.smk"
 include: "workflow/studies/failures/rules.smk"
 include: "workflow/studies/step_sweep/rules.smk"
 include: "workflow/studies/work_precision/rules.smk"
-# Tables of long studies, in a full build
+# Committed tables of long studies, which a full build makes
 include: "workflow/rules/article.smk"
 # The interactive page
 include: "workflow/rules/explorer.smk"
 
 
 rule all:
-    """Everything except what is made on demand."""
+    """All results, except those that are made on demand."""
     default_target: True
     input:
         RESULTS,
@@ -46,4 +46,4 @@ rule accuracy:
     localrule: True
 
 
-include: "workflow/rules/provenance.smk"  # where the results come from; names that scenes must not have
+include: "workflow/rules/provenance.smk"

@@ -32,15 +32,15 @@ class Loader(yaml.CSafeLoader):
     def construct_mapping(
         self, node: yaml.MappingNode, deep: bool = False
     ) -> dict[Any, Any]:
-        """Return a table; a repeated key is refused."""
+        """Return a table, or refuse a repeated key."""
         keys = [key.value for key, _ in node.value]
         for i, (key, _) in enumerate(node.value):
             if key.value in keys[:i]:
-                raise _misread(key, f"the key {key.value!r} stands there twice")
+                raise _misread(key, f"the key {key.value!r} is repeated")
         return super().construct_mapping(node, deep)
 
     def construct_scalar(self, node: Any) -> Any:
-        """Return a value; 2.5e9 is refused, because YAML reads it as text."""
+        """Return a value, or refuse one such as 2.5e9, which YAML reads as text."""
         if node.tag == TEXT and not node.style and _as_number(node.value) != node.value:
             remedy = "write a number as 2.5e+9 and not as 2.5e9, or a text in quotes"
             raise _misread(node, f"{node.value} is text to YAML: {remedy}")
@@ -85,7 +85,7 @@ def load_config(
     for path, content in reversed(contents.items()):
         place_weights(config, path, content)
     if isinstance(chain := config.get("chain"), dict):
-        # --config chain='{mu_k: 0.46}' has numbers as text.
+        # Snakemake passes the numbers of --config chain='{mu_k: 0.46}' as text.
         config["chain"] = {name: _as_number(value) for name, value in chain.items()}
     complete = deepcopy(defaults)
     update_config(complete, config)
@@ -103,7 +103,7 @@ def read_settings(workflow: Path) -> dict[str, dict[str, Any]]:
 
 
 def long_settings(workflow: Path) -> dict[str, Any]:
-    """The settings of full studies, those of each in its section."""
+    """The settings of a full build, with a section for each study."""
     settings = dict(ChainMap(*read_settings(workflow).values()))
     update_config(settings, read_file(workflow / "full.yaml"))
     return settings
@@ -193,7 +193,7 @@ def check_config(
 
 
 def _add_keys(schema: dict[str, Any], studies: Config) -> None:
-    """Add the sections of studies and their keys to the schema, which refuses others."""
+    """Allow the sections of studies and their keys in the schema."""
     for name, section in studies.items():
         known = schema["properties"].setdefault(name, {})
         if isinstance(section, dict):
@@ -237,7 +237,7 @@ def _refusal(where: AnyPath, problem: object) -> ValueError:
 
 
 def _check_chains(config: Config) -> None:
-    """Make every chain of the configuration, to check its values."""
+    """Check the values of every chain of the configuration."""
     where = "chain"
     try:
         Chain.from_slider(**config["chain"])

@@ -2,7 +2,7 @@
 
 # The same for all simulations and experiments.
 MU_SAPP = 0.49
-# One unit of its last digit; the paper says that mu_sapp "appears to have" this value.
+# One unit of its last digit. The paper says that mu_sapp "appears to have" the value 0.49.
 LAST_DIGIT = 0.01
 # By scene; the events are those counted in Fig. 13 (Sect. 5.2).
 SCENES = {

@@ -61,8 +61,8 @@ def scene_slider(config: Config, name: str) -> dict[str, Any]:
 
 
 def scene_as_written(config: Config, name: str) -> dict[str, Any]:
-    """Arguments for a scene before any rounding: theta and F_Z = F_ZA + F_ZB from load
-    cells are exact fractions."""
+    """Arguments for a scene before rounding: theta and F_Z from load cells are exact
+    fractions."""
     scene = config["scenes"][name]
     slider = {key: scene.get(key, value) for key, value in config["chain"].items()}
     if "load_cell_a" not in scene:

@@ -63,7 +63,9 @@ def test_the_check_names_a_changed_table_even_if_its_time_is_old(copy):
             os.utime(table, ns=times)
         with pytest.raises(SystemExit) as error:
             check_claims.main(copy)
-        line = f"check: {table} is not as it was made: delete it, and run make all"
+        line = (
+            f"check: {table} has changed since it was made: delete it and run make all"
+        )
         assert str(error.value) == line
 
 
@@ -74,7 +76,9 @@ def test_a_newer_figure_is_reported_and_an_older_one_fails(copy, capsys):
     *_, last = capsys.readouterr().out.splitlines()
     assert last == "figures/fig10.svg is newer than provenance.json: run make all"
     (copy / "provenance.json").touch()
-    with pytest.raises(SystemExit, match=r"fig10\.svg is not as it was made: delete"):
+    with pytest.raises(
+        SystemExit, match=r"fig10\.svg has changed since it was made: delete"
+    ):
         check_claims.main(copy)
 
 

@@ -72,7 +72,7 @@ def test_a_missing_row_or_file_stops_the_build_in_one_line(here):
     assert not Path("paper.pdf").exists()
     shown = cited_results(SOURCE / "paper.typ")
     shown.remove("results/figures/hero.svg")
-    line = "paper.typ shows results/figures/hero.svg, which no rule makes: "
+    line = "paper.typ cites results/figures/hero.svg, which no rule makes: "
     with pytest.raises(ValueError, match=rf"^paper/{line}[^\n]*$"):
         write_paper.main(SOURCE / "paper.typ", shown, "paper.pdf")
 

@@ -154,13 +154,13 @@ def test_a_missing_event_contradicts_and_a_missing_number_raises():
         ValueError, match=r"^claim count-trailing: the tables do not have its numbers"
     ):
         evaluate({"noise_members": pd.DataFrame({"scene": ["fig10"], "draw": [0]})})
-    with pytest.raises(IndexError, match="0 rows have x = 1: needed is one"):
+    with pytest.raises(IndexError, match="0 rows have x = 1, but one must"):
         cell(pd.DataFrame({"x": [2]}), "x", x=1)
 
 
 def test_a_claim_without_a_function_is_one_clear_line(monkeypatch):
     monkeypatch.delitem(FINDINGS, "waves")
-    with pytest.raises(ValueError, match="claim waves: it has no function"):
+    with pytest.raises(ValueError, match="claim waves has no function"):
         evaluate({})
 
 

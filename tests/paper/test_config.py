@@ -41,7 +41,7 @@ WRONG = [
     (
         "scenes.fig10.load_cell_b",
         MISSING,
-        ["'load_cell_a'] must have either theta or both load_cell_a and load_cell_b"],
+        ["'load_cell_a'] must have exactly one of these: theta, both load_cell_a"],
     ),
     ("scenes.fig10.load_cell_b", 5000.0, ["scenes.fig10: ", "-1"]),
     (
@@ -58,7 +58,9 @@ WRONG = [
     (
         "scenes.steep",
         MEASURED | {"theta": 0},
-        ["scenes.steep: ['title', 'weights', 'theta'] must have either theta"],
+        [
+            "scenes.steep: ['title', 'weights', 'theta'] must have exactly one of these: theta"
+        ],
     ),
     (
         "scenes.steep",
@@ -168,7 +170,7 @@ def test_an_error_names_the_file_with_the_wrong_value():
     [
         (
             "a: 1\nb: {c: 2, c: 3}\n",
-            "the key 'c' stands there twice in line 2, column 11",
+            "the key 'c' is repeated in line 2, column 11",
         ),
         ("a:\n\tb: 1\n", "cannot start any token in line 2, column 1"),
         (

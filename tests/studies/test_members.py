@@ -80,7 +80,7 @@ def test_a_missing_or_doubled_chunk_is_refused(noise, tmp_path):
     few = Study(noise.members.iloc[:4], noise.seed)
     a, b = chunks_of(few, 2, tmp_path)
     for chunks in ([a], [b], [a, a], [a, b, b]):
-        with pytest.raises(ValueError, match="each once"):
+        with pytest.raises(ValueError, match="must have every member"):
             gather(chunks)
 
 

@@ -30,7 +30,7 @@ from precursors import Run
         (
             "  mu_k: 0.45",
             "  mu_k: 0.45\n  mu_k: 0.46",
-            "the key 'mu_k' stands there twice in line 9, column 3",
+            "the key 'mu_k' is repeated in line 9, column 3",
         ),
     ],
 )
@@ -74,7 +74,7 @@ def test_a_wrong_file_of_the_command_line_is_named(workspace):
     )
     outcome = workspace.run("-n", "--configfile", "mine.yaml")
     assert outcome.code != 0
-    assert "mine.yaml: the key 'duration' stands there twice" in outcome.text
+    assert "mine.yaml: the key 'duration' is repeated" in outcome.text
 
 
 def test_a_file_in_place_of_the_results_directory_is_refused(workspace):

@@ -1,4 +1,3 @@
-# The tables of long studies that the article shows, as they are committed.
 if config["full"] and IS_PAPER_SLIDER:
 
     rule publish:
@@ -19,7 +18,7 @@ if config["full"] and IS_PAPER_SLIDER:
             "../scripts/publish.py"
 
     rule article:
-        """All long studies that the article shows, made and written to paper/tables."""
+        """Make all long studies that the article shows, and write their tables to paper/tables."""
         input:
             rules.publish.input,
             rules.publish.output,

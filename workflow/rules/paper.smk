@@ -2,7 +2,7 @@ from maegawa2010.paper.inputs import CLAIM_TABLES, POINT_TABLES
 from maegawa2010.paper.documents import cited_results
 
 PAPER_SOURCE = ROOT / "paper"
-# The article describes the paper's slider, so it is not made for another.
+# The article describes the paper's slider, so it is not made for another slider.
 PAPER = ["results/paper.pdf", "results/supplement.pdf"] if HAS_LONG else []
 
 
@@ -65,7 +65,7 @@ rule fig09:
 rule write_paper:
     """Typeset the article or the supplement with the numbers and figures of the results."""
     input:
-        # Read from the text of the document. The job refuses to run without a result that no rule makes.
+        # Tables and figures that the text cites. The script refuses a result that no rule makes.
         shown=lambda wildcards: [
             path
             for path in cited_results(PAPER_SOURCE / f"{wildcards.document}.typ")
@@ -111,7 +111,7 @@ onstart:
     if not HAS_LONG:
         own = "study resolution" if IS_PAPER_SLIDER else "slider"
         print(
-            f"paper.pdf is not made: it describes the paper's {own}, and this is another one",
+            f"paper.pdf is not made: it describes the paper's {own}, but the configuration has another one",
             file=sys.stderr,
         )
 

@@ -15,7 +15,7 @@ rule write_provenance:
         "../scripts/write_provenance.py"
 
 
-# Two rules would write the same figure if a scene had one of these names.
+# A scene must not have the name of a figure or a rule: two rules would write the same figure, or a target be ambiguous.
 drawn = {Path(file).stem for rule in workflow.rules for file in rule.output if "/figures/" in file}
 for scene in {*drawn, *(rule.name for rule in workflow.rules)} & set(config["scenes"]):
     raise WorkflowError(

@@ -1,5 +1,5 @@
 rule simulate_scene:
-    """Simulate a scene and find every transition."""
+    """Simulate a scene, and find every transition between stick and slip."""
     output:
         run="results/runs/{scene}.h5",
         slips=report("results/tables/{scene}_slips.csv", category="Tables"),
@@ -65,7 +65,7 @@ rule fig13:
 
 
 rule mu_sapp:
-    """Compare mu_sapp (computed by `summary_of` in precursors.analysis.summary) and the counts with the paper."""
+    """Compare mu_sapp and the number of events with the paper."""
     input:
         runs=RUNS,
         slips=collect("results/tables/{scene}_slips.csv", scene=SCENES),
@@ -86,12 +86,11 @@ rule mu_sapp:
         "../scripts/mu_sapp.py"
 
 
-# Three slips of this scene are drawn.
 SHOWN = FIG13[len(FIG13) // 2]
 
 
 rule draw_slips:
-    """Draw three slips of a scene: the spring forces along the row, and a film in slow motion."""
+    """Draw three slips of the middle scene of Fig. 13: spring forces along the row, and a film in slow motion."""
     input:
         run=f"results/runs/{SHOWN}.h5",
         slips=f"results/tables/{SHOWN}_slips.csv",

@@ -10,17 +10,17 @@ import yaml
 from matplotlib import image
 
 GOLDEN = Path("tests/golden")
-# Largest differences from the golden files that processors' rounding may cause, by the
-# unit of a number or the suffix of a file. Everything else must be the same.
+# Largest differences from the golden files that the rounding of another processor may
+# cause, by the unit of a number or the suffix of a file. All else must be the same.
 TOLERANCES = {
     "s": 1e-9,  # what the project promises for times up to the first global slip
     "N": 1e-6,  # the load grows by 200 N/s; the linear program of Eq. 15 errs by 1e-9
     "1": 1e-8,  # mu_sapp is a load over 400 N
     "m/s": 1e-8,  # a formula, right to rounding
     "1/s": math.inf,  # exponents of a chaotic motion; the verdict must be the same
-    # Root mean square over all pixels and colours, out of 255. The locked Matplotlib
-    # draws the same picture up to smoothing. Of the edits that we tried (colours,
-    # markers, sizes, dashes, words, a moved point), fewer arrows gave the least, 1.4.
+    # Root mean square difference of all pixels and colours, out of 255. The locked
+    # Matplotlib draws the same picture up to smoothing. Real changes of a figure (colours,
+    # markers, sizes, dashes, words, a moved point, fewer arrows) gave at least 1.4.
     ".png": 0.5,
 }
 # Factor on the tolerance after the first global slip, where the motion is chaotic.
@@ -51,8 +51,10 @@ def difference(made: Path, golden: Path) -> str:
 
 
 def table_difference(made: Path, golden: Path) -> str:
-    """Describe the first value of a table that differs; its unit is the end of the
-    column's name, or in a column `unit`."""
+    """Describe the first value of a table that differs.
+
+    The unit of a value is the end of its column's name, or is in the column `unit`.
+    """
     new, old = (
         pd.read_csv(path, dtype=str, keep_default_na=False) for path in (made, golden)
     )

@@ -16,7 +16,7 @@ QUANTITIES = {
 }
 
 
-# What a reader opens first. Results for another slider have no article.
+# Results to open first. Another slider than the paper's has no article.
 PAGES = ("paper.pdf", "supplement.pdf", "explorer.html", "figures")
 
 

@@ -7,7 +7,7 @@ from precursors.support.files import read_bytes, write_table, write_whole
 
 with job() as snakemake:
     inputs, outputs, params = snakemake.input, snakemake.output, snakemake.params
-    # Snakemake has already deleted the tables that are made here.
+    # Ignore paper/tables: Snakemake has deleted its tables before this job.
     state = git_state(Path(params.root), ignored="paper/tables")
     state = state or {"commit": "unknown", "changed": False}
     commit = f"{state['commit']}{', changed' if state['changed'] else ''}"

@@ -1,6 +1,9 @@
-"""The slip table has every event; its column `counted` marks those of Fig. 13. The trace
-is the exact tangential load at all transitions and at points between which it is
-straight to 1e-4 N. A run that reaches its limit on transitions is saved as unfinished.
+"""Simulate a scene; write its run, a table of its slips, and the trace of its load.
+
+The table has every slip event; its column `counted` marks those of Fig. 13. The trace is
+the exact tangential load at all transitions, and at further points so that straight lines
+between points are right to 1e-4 N. A run that reaches its limit on transitions is saved
+as unfinished.
 """
 
 from pathlib import Path

@@ -10,7 +10,7 @@ from maegawa2010.paper.documents import cited_results
 from maegawa2010.support.job import job
 from precursors.support.files import write_whole
 
-# The PDF has no date of its own, so that its bytes do not change.
+# Date in the PDF: always the same, so that its bytes do not change.
 EPOCH = 0
 
 
@@ -33,8 +33,8 @@ def main(
     missing = sorted({*cited_results(main_file)} - {*map(str, results)})
     if missing:
         raise ValueError(
-            f"paper/{main_file.name} shows {', '.join(missing)}, which no rule makes: "
-            "delete what shows it, or include the study that makes it"
+            f"paper/{main_file.name} cites {', '.join(missing)}, which no rule makes: "
+            "delete the citation, or include the study that makes the result"
         )
     with tempfile.TemporaryDirectory() as directory:
         root = Path(directory)

@@ -61,8 +61,8 @@ def sliding_forward(
     """System and state of blocks that slide forward with given velocities [m/s], shape
     (N,), and springs of natural length.
 
-    Their mode says that they stick and their strength is infinite, so that no event
-    function changes sign and they always slide.
+    The mode of the blocks is that of stick, with infinite strength, so that no event
+    function changes sign. Their mobility is that of slip, so that they slide for ever.
     """
     system, state = at_rest(chain)
     set_modes(system, state, 1.0)

@@ -1,8 +1,8 @@
 """SUNDIALS CVODE (in scikit-sundae) with root functions, restarted at each transition.
 
-A. C. Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363. The method is Adams', which
-CVODE's documentation recommends for problems that are not stiff, as the chain between
-transitions.
+A. C. Hindmarsh et al., ACM Trans. Math. Softw. 31 (2005) 363. We use the Adams method,
+which CVODE's documentation recommends for problems that are not stiff. The chain between
+transitions is such a problem.
 """
 
 import numpy as np

@@ -49,7 +49,7 @@ from precursors.solver.simulate import TransitionLimitError
 # it were zero and the block stopped within the first step, a solver would take the start
 # for the root: with SciPy the block would never move, and heyoka would miss the stop.
 NUDGE = math.sqrt(np.finfo(float).tiny)
-# With more transitions per block at one instant, the solver makes no progress.
+# A run with more transitions per block at one instant counts as stuck.
 MAX_AT_ONCE = 8
 # Row of `EventMotion.settings` that is 1 for blocks that stick.
 STICKS = 3
@@ -115,7 +115,7 @@ class EventMotion:
         if status == LOST:
             run = run_of(self.motion, self.chain)
             raise TransitionLimitError(
-                f"the solver makes transition after transition at t = {run.duration:.9g} s",
+                f"transitions repeat without time advancing at t = {run.duration:.9g} s",
                 run,
             )
         if status == PAUSED:
@@ -138,8 +138,8 @@ def march_restarting(
 
     `next_transition(time)` integrates the state in `motion` from a time [tau] to the
     next root of an event function. It returns the time of the root and the number of the
-    function, or the end of the run and -1. A second event at the same instant is made
-    with the first, or fires again immediately.
+    function, or the end of the run and -1. It need not report a second event at the same
+    instant, which is made with the first.
     """
     while motion.begin():
         time = 0.0

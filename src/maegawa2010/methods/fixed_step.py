@@ -2,7 +2,7 @@
 the end of a run.
 
 A compiled method is a function (motion, step). A leg is a series of steps up to the next
-change of a mode. The method makes legs while `begin_leg` is true; this function also
+change of a mode. The method makes legs while `begin_leg` is true. `begin_leg` also
 advances the run in closed form while all blocks stick.
 """
 
@@ -197,7 +197,7 @@ def rest(motion):
     progress = motion.progress[0]
     if progress.was_global and progress.until_global:
         return GLOBAL_SLIP
-    # Time is counted from the present instant on.
+    # The onset becomes the present instant.
     progress.onset += progress.elapsed * progress.unit
     progress.waited += (progress.elapsed - progress.noted) * progress.unit
     progress.elapsed = progress.noted = 0.0

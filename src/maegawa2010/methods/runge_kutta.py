@@ -34,7 +34,7 @@ NEVER = 2.0  # a fraction of the step that lies beyond its end: no root
 
 
 def energy_factor(z: float) -> float:
-    """Factor on the energy of a mode in a step, z = omega dt; RK4 has exp(i z) up to z^4."""
+    """Factor on the energy of a mode in a step, z = omega dt, from exp(i z) up to z^4."""
     return abs(1.0 + 1j * z - z**2 / 2.0 - 1j * z**3 / 6.0 + z**4 / 24.0) ** 2
 
 
@@ -182,8 +182,8 @@ def run_rk4_located(motion, step):
             rates(by_mode, system, state, last, end, k[STAGES])
             progress.evaluations += STAGES
             x = 1.0
-            # If modes change repeatedly without time advancing, rounding decides: make a
-            # whole step.
+            # If modes change again and again without time advancing, rounding decides the
+            # event: make a whole step instead.
             if progress.at_once <= state.size:
                 interpolate(last, h, k, path)
                 x, block = first_event(system, state, last, path, c)

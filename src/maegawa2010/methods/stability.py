@@ -15,7 +15,7 @@ from maegawa2010.methods.columns import FORCE, VELOCITY, sliding_forward
 from precursors.model.chain import Chain, FloatArray
 from precursors.model.statics import balance_matrix
 
-# So slow a drive does no measurable work; `Chain` refuses a velocity of zero.
+# A drive this slow does no measurable work. `Chain` refuses a velocity of zero.
 AT_REST = float(np.finfo(float).eps)  # m/s
 
 Slide = Callable[..., None]

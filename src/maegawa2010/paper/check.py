@@ -1,5 +1,5 @@
-"""What `make check` says of results that are there: the claims by their tables, and
-files that are not as they were made."""
+"""Check existing results (`make check`): judge the claims by the tables, and find files
+that have changed since they were made."""
 
 import json
 from collections import Counter
@@ -31,8 +31,8 @@ RUNS = {
 
 
 def check(results: Path, expected: AnyPath) -> tuple[str, list[str]]:
-    """The claims for reading, and what is wrong, a line each: a verdict that is not the
-    expected one, and a file that is not as it was made.
+    """Return the claims as text, and a line for each thing that is wrong: an unexpected
+    verdict, or a file that has changed since it was made.
 
     Raises
     ------
@@ -57,7 +57,7 @@ def check(results: Path, expected: AnyPath) -> tuple[str, list[str]]:
         if newer:
             text += f"\n\n{files(newer)} newer than provenance.json: run make all"
         wrong += [
-            f"{results / name} is not as it was made: delete it, and run make all"
+            f"{results / name} has changed since it was made: delete it and run make all"
             for name in changed
         ]
     return text, wrong
@@ -66,8 +66,11 @@ def check(results: Path, expected: AnyPath) -> tuple[str, list[str]]:
 def changes(
     results: Path, time: float, made: Mapping[str, str]
 ) -> tuple[list[str], list[str]]:
-    """Results with other checksums than those made: figures and runs that are newer
-    than a time, as of another size, and all others."""
+    """Names of results whose checksum is no longer that in `made`, in two lists.
+
+    The first has figures and runs newer than `time`, for example figures in another
+    size. The second has all others.
+    """
     there = checksums(results.rglob("*"), results, leave_out=NOT_RESULTS)
     other = [name for name in made if there.get(name, made[name]) != made[name]]
     newer = [
@@ -84,8 +87,7 @@ def files(names: list[str]) -> str:
 
 
 def in_words(claims: pd.DataFrame) -> str:
-    """Each claim under the heading of its kind: section, statement, verdict, numbers,
-    and its shares of the ensembles; then the totals."""
+    """Write each claim under the heading of its kind, and then the totals."""
     texts = claims.astype(object).where(claims.notna(), "").astype(str)
     lines, totals = [], [""]
     number = 0

@@ -53,8 +53,8 @@ class Share(NamedTuple):
 class Finding:
     """Our numbers, and whether the claim holds for them.
 
-    `holds` is None if it cannot be decided, for example because an interval crosses the
-    tolerance. `shares` says in how many members of each ensemble the claim holds, and
+    `holds` is None if the numbers do not decide, for example because an interval crosses
+    the tolerance. `shares` says in how many members of each ensemble the claim holds.
     `note` is a sentence about the numbers.
     """
 
@@ -83,11 +83,11 @@ Find = Callable[[Tables], Finding]
 def judged(claim: Mapping[Any, str], find: Find, tables: Tables) -> dict[str, Any]:
     """Evaluate a claim: its row of the table of claims.
 
-    A run without an event that the claim is about contradicts the claim.
+    A run contradicts the claim if it lacks the events that the claim is about.
 
-    `claim` is a row of the module's claims.csv: name of the claim; section of the paper;
-    kind (see above); statement; rule by which it holds; unit of its numbers; and `of`,
-    what each number refers to, if there are several.
+    `claim` is a row of claims.csv: its name; section of the paper; kind; statement; rule
+    by which the statement holds; unit of the numbers; and `of`, which says what each of
+    several numbers refers to.
 
     Raises
     ------
@@ -125,7 +125,7 @@ def in_ensembles(
 
     `ours` computes the numbers of the claim, one row per member, from a table of runs
     with one row per member and (quantity, scene) as columns. `holds` says of each number
-    whether it agrees; NaN (no global slip) does not.
+    whether it agrees. NaN (no global slip) does not agree.
     """
     shares = {}
     for name, members in ENSEMBLES.items():

@@ -1,8 +1,8 @@
 """All claims of the paper that a run could contradict. Numbers are in the order of
 SCENES.
 
-`claims.csv` has each statement of the paper, in our words, and when it holds. Here is a
-function for each claim, with its name, that compares it with the tables.
+`claims.csv` has each statement in our words, and the rule by which it holds. This module
+has a function of the same name, which evaluates the claim from the tables.
 """
 
 from collections.abc import Callable
@@ -27,25 +27,25 @@ from precursors.support.files import read_table
 
 # The smallest mu_s that is printed as 0.70.
 MU_S = 0.695
-# Times whose steps vary by less than this (standard deviation over mean) would be
-# called periodic.
+# Times count as periodic if the standard deviation of their intervals, over the mean, is
+# below this.
 PERIODIC = 0.05
-# Probability by chance below which a trend counts as one.
+# A trend is significant below this probability by chance.
 CHANCE = 0.05
-# "Approximately" 200 N and 2 ms.
+# Relative tolerances of the paper's "approximately" 200 N and 2 ms.
 NEAR_LOAD = 0.05
 NEAR_TIME = 0.25
-# Blocks from which a row stands for a slider: mu_sapp is then near mu_k.
+# A row of at least this many blocks stands for a slider: its mu_sapp is near mu_k.
 CUT_FINELY = 160
-# A length is a whole number of blocks: a straight line passes it by half a block at
-# most.
+# Lengths are whole numbers of blocks, so rounding alone takes them up to half a block
+# away from a straight line.
 HALF_A_BLOCK = 0.5
 
 FINDINGS: dict[str, Find] = {}
 
 
 def of_claim(find: Find) -> Find:
-    """Enter a function under the name of its claim."""
+    """Register a function under the name of its claim."""
     return FINDINGS.setdefault(find.__name__.replace("_", "-"), find)
 
 
@@ -94,14 +94,19 @@ def chaos(t: Tables) -> Finding:
 
 
 def line_of_lengths(slips: pd.DataFrame, along: str) -> FloatArray:
-    """Slope and offset of the straight line through the lengths along a column. Needs
-    two events."""
+    """Slope and offset of the straight line through the lengths against a column.
+
+    Raises
+    ------
+    IndexError
+        If there are fewer than two events.
+    """
     slips.iloc[1]
     return np.polyfit(slips[along], slips["front"], 1)
 
 
 def not_periodic(times: pd.Series) -> Finding:
-    """Standard deviation of the steps between times over their mean: 0 for a period."""
+    """Standard deviation of the intervals between times, over their mean."""
     steps = np.diff(times)
     variation = float(np.std(steps) / np.mean(steps))
     return Finding(variation, variation > PERIODIC)
@@ -152,8 +157,8 @@ def length_is_linear_in_time(t: Tables) -> Finding:
 
 @of_claim
 def count_grows_with_theta(t: Tables) -> Finding:
-    """Counts of Fig. 13 from theta to theta, in each member and by the medians of the
-    noise ensemble."""
+    """Increase with theta of the counts of Fig. 13, in each member and in the medians of
+    the noise ensemble."""
     by_member = in_ensembles(
         t,
         quantity("events_counted"),
@@ -179,8 +184,11 @@ def growth_falls_with_theta(t: Tables) -> Finding:
 
 @of_claim
 def friction_independent_with_ten_blocks(t: Tables) -> Finding:
-    """Differences of the medians of mu_sapp in the noise ensemble, each with a verdict
-    of its interval; the note and the shares are of the three mu_sapp of one member."""
+    """Differences of the medians of mu_sapp in the noise ensemble.
+
+    Their intervals decide. The note and the shares compare the three mu_sapp of each
+    member.
+    """
     by_member = in_ensembles(
         t,
         spread_of_friction,
@@ -199,20 +207,19 @@ def friction_independent_with_ten_blocks(t: Tables) -> Finding:
 
 @of_claim
 def friction_independent_of_loading(t: Tables) -> Finding:
-    """The largest of the same differences for rows that are cut finely, as a slider has
-    no blocks."""
+    """Largest difference of the medians of mu_sapp with many blocks."""
     pairs = t["resolution_differences"]
     fine = pairs[pairs["n_blocks"] >= CUT_FINELY]
     largest = fine["difference"].abs().groupby(fine["n_blocks"]).max()
-    note = f"The largest with {', '.join(map(str, largest.index))} blocks."
+    note = f"Largest difference with {', '.join(map(str, largest.index))} blocks."
     if "committed_resolution" in t:
         note += f" The study is committed: {agreement(t['committed_resolution'])}."
     return Finding(largest, all_same(fine), note=note)
 
 
 def all_same(pairs: pd.DataFrame) -> bool | None:
-    """Whether every difference is within the tolerance, interval included; None if one
-    interval crosses it."""
+    """Whether the interval of every difference is within the tolerance; None if none is
+    outside but one crosses the limit."""
     verdicts = set(pairs["verdict"])
     holds = not pairs.empty and "different" not in verdicts
     return None if holds and "undecided" in verdicts else holds
@@ -234,7 +241,7 @@ def friction_underestimated(t: Tables) -> Finding:
 def waves(t: Tables) -> Finding:
     """mu_sapp of a chain without inertia, which has no waves.
 
-    Where it is below mu_s, too, waves need not be the cause, and may still be.
+    If this mu_sapp is below mu_s, too, waves may or may not be the cause.
     """
     overdamped = rows(t["model_comparison"], model="overdamped", question="mu_sapp")
     without = np.array([cell(overdamped, "value", scene=scene) for scene in SCENES])
@@ -243,8 +250,7 @@ def waves(t: Tables) -> Finding:
 
 @of_claim
 def first_global_slip_is_at_the_largest_load(t: Tables) -> Finding:
-    """Largest F_X [N] in all the time simulated, against that at the first global
-    slip."""
+    """Largest F_X [N] of the whole run, against F_X at the first global slip."""
     first = [
         rows(t[f"{scene}_slips"], is_global=True)["load_before_N"].iloc[0]
         for scene in SCENES
@@ -264,7 +270,7 @@ def short_events(t: Tables) -> Finding:
     for_all = in_ensembles(t, short, lambda n: n > 0)
     for_one = in_ensembles(t, short, lambda n: (n > 0).any(axis=1).to_frame())
     shares = [f"{100 * s.k / s.n:.0f} %" for s in for_one.shares.values()]
-    note = f"For one loading or more: {', '.join(shares)}."
+    note = f"For at least one theta: {', '.join(shares)}."
     return replace(for_all, note=note)
 
 
@@ -278,8 +284,10 @@ def precursors_in_later_periods(t: Tables) -> Finding:
 
 @of_claim
 def no_rapid_growth(t: Tables) -> Finding:
-    """Growth of L_p beyond 0.7 L over that before: in the experiment, it is large for
-    all three loadings."""
+    """Growth of L_p with F_X beyond 0.7 L, over the growth before.
+
+    In the experiment this ratio is large for all three loadings.
+    """
     by_member = in_ensembles(
         t,
         quantity("speedup"),
@@ -318,11 +326,11 @@ def evaluate(tables: Tables) -> pd.DataFrame:
     Raises
     ------
     ValueError
-        In one line, if a claim has no function, or the tables not its numbers.
+        In one line: a claim has no function, or the tables lack its numbers.
     """
     stated = read_table(Path(__file__).with_name("claims.csv"), dtype=str).fillna("")
     if missing := set(stated["claim"]) - set(FINDINGS):
-        raise ValueError(f"claim {min(missing)}: it has no function in claims.py")
+        raise ValueError(f"claim {min(missing)} has no function in claims.py")
     return pd.DataFrame(
         judged(claim, FINDINGS[claim["claim"]], tables)
         for claim in stated.to_dict("records")
@@ -330,7 +338,7 @@ def evaluate(tables: Tables) -> pd.DataFrame:
 
 
 def differences(claims: pd.DataFrame, expected: pd.DataFrame) -> list[str]:
-    """Say in a line each which claims have another verdict than expected, or none."""
+    """Write a line for each claim whose verdict is missing or not the expected one."""
     new, old = (
         dict(zip(table["claim"], table["verdict"], strict=True))
         for table in (claims, expected)

@@ -1,5 +1,8 @@
-"""Tables of long studies: committed with the rule, commit and seed that made them, and
-checked by every build, which makes a part of each row again."""
+"""Committed tables of long studies.
+
+provenance.csv has the rule, commit and seed that made each table. Every build makes a
+part of each row again and compares it.
+"""
 
 import hashlib
 from collections.abc import Iterable, Mapping, Sequence
@@ -11,7 +14,7 @@ import pandas as pd
 
 from precursors.support.files import read_bytes, read_table, write_table, write_whole
 
-REMEDY = "if the code is right, make article"
+REMEDY = "if the code is right, run make article"
 
 
 def compared(
@@ -23,8 +26,8 @@ def compared(
 ) -> pd.DataFrame:
     """Compare a committed table with rows of it that were made again.
 
-    `row` are the columns that name a row of either table. `tolerances` has a number, or
-    one for each row that was made, by the column that is compared.
+    The columns `row` identify a row in both tables. `tolerances` gives each compared
+    column a tolerance, or one for each row of `made`.
 
     Returns
     -------
@@ -54,7 +57,7 @@ def compared(
 
 
 def row_name(values: Mapping[Any, Any]) -> str:
-    """A row as the file has it: "line 3, scene = fig11, n_blocks = 10"."""
+    """Name a row of a file, such as "line 3, scene = fig11, n_blocks = 10"."""
     shown = {name: value for name, value in values.items() if not pd.isna(value)}
     line = shown.pop("line", None)
     texts = [
@@ -74,7 +77,7 @@ def hand_on(
     Raises
     ------
     ValueError
-        In one line: a row that differs, or a table that is not as its rule made it.
+        In one line: a row differs, or a table has not the checksum in provenance.csv.
     """
     for wrong in comparison[~comparison["agrees"]].itertuples():
         raise ValueError(
@@ -86,7 +89,7 @@ def hand_on(
         content = read_bytes(path)
         if hashlib.sha256(content).hexdigest() != sums.get(path.stem):
             raise ValueError(
-                f"{path} is not as its rule made it (provenance.csv): restore it, or"
+                f"{path} has not the checksum in provenance.csv: restore it, or run"
                 " make article"
             )
         write_whole(output[path.stem], content)
@@ -96,8 +99,10 @@ def hand_on(
 def provenance_table(
     tables: Iterable[str], origins: Mapping[str, tuple[str, Any]], commit: str
 ) -> pd.DataFrame:
-    """Where tables of these files come from: the rule, the commit, the seed if there is
-    one, and the checksum of each; `origins` has rule and seed by name."""
+    """Origin of each table: its rule, commit, seed (if any) and checksum.
+
+    `origins` has rule and seed by the name of the table.
+    """
     return pd.DataFrame(
         {
             "table": path.stem,
@@ -111,7 +116,7 @@ def provenance_table(
 
 
 def agreement(comparison: pd.DataFrame) -> str:
-    """How many numbers of committed tables were made again and agree, in words."""
+    """Say how many numbers of committed tables were made again, and how many agree."""
     n, agree = len(comparison), int(comparison["agrees"].sum())
     tables = comparison["table"].nunique()
     verdict = "all agree" if agree == n else f"{n - agree} differ"
@@ -119,6 +124,6 @@ def agreement(comparison: pd.DataFrame) -> str:
 
 
 def comparisons(tables: str | Path) -> dict[str, pd.DataFrame]:
-    """All comparisons of a directory of tables, by name."""
+    """Comparisons with committed tables in a directory of tables, by name."""
     paths = sorted(Path(tables).glob("committed_*.csv"))
     return {path.stem: read_table(path) for path in paths}

@@ -1,5 +1,5 @@
-"""Readings of terms that the paper leaves undefined: ours, those that differ from it in
-one respect, and the numbers that each reading gives."""
+"""Readings of terms that the paper leaves undefined: ours, those that change one term,
+and the numbers that each reading gives."""
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -137,8 +137,8 @@ def definitions_table(
     runs : sequence of Run
         The scenes with theta < 0, theta = 0 and theta > 0.
     slider, duration : mapping, float
-        Arguments of `Chain.from_slider` without theta, and time to simulate [s], for
-        other values of theta.
+        For other values of theta: arguments of `Chain.from_slider` except theta, and
+        the time to simulate [s].
     degrees : sequence
         Other absolute values of theta.
     load_drops : iterable of float
@@ -190,8 +190,8 @@ def run_switching(chain: Chain, duration: float, rule: str) -> Record:
 def numbers(
     run: Record, reading: Reading, of_paper: Mapping[str, float]
 ) -> dict[str, Any]:
-    """Both numbers of a run, and how many of them agree with the paper: mu_sapp to one
-    unit of its last digit."""
+    """Number of events and mu_sapp of a run, and how many of these two agree with the
+    paper (mu_sapp to one unit of its last digit)."""
     summary = summary_of(reading.read(slip_table(run)))
     counted = summary.events_counted if summary.reached else math.nan
     off = abs(summary.mu_sapp - of_paper.get("mu_sapp", math.nan))

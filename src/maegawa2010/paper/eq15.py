@@ -1,8 +1,8 @@
 """Check Eq. 15, mu_sapp <= mu_s, in symbols, over all states of rest, and in motion.
 
-The equation holds at rest. `fast_drive` therefore finds the drive velocity from which
-inertia violates it, and `below_limit` measures how far a run stays from the state of
-Eq. 12.
+Eq. 15 holds for a chain at rest. In motion inertia can violate it: `fast_drive` finds the
+drive velocity from which it does. `below_limit` measures how far a run stays from the
+state of Eq. 12, in which F_X = mu_s F_Z.
 """
 
 import math
@@ -29,15 +29,15 @@ from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
 SYMBOLIC_BLOCKS = 10
-# Strain of a start slightly below the maximal one, over the maximal one.
+# A start with slightly less than the maximal strain has this fraction of it.
 SLIGHTLY_BELOW = 0.999
-# Relative tolerance of the speed at which a rigid slider would exceed the bound: the
-# chain is elastic, and moves before F_X = mu_k F_Z.
+# Relative tolerance of the drive velocity at which F_X exceeds mu_s F_Z. The formula is
+# that of a rigid slider, but the chain is elastic and moves before F_X = mu_k F_Z.
 RIGID_TOLERANCE = 0.25
-# Decimals to which the speed and the distance from the limit are rounded, so that they
-# hide the rounding errors of 10 s.
+# Decimals of that velocity and of the distance from the limit: few enough that rounding
+# errors of 10 s do not show.
 DIGITS = 4
-# A run lasts until the drive has advanced this many times as far as the bound needs.
+# A run lasts this many times as long as F_X of a resting chain needs to reach mu_s F_Z.
 ADVANCES = 3
 # Relative tolerances. HiGHS is asked for 1e-10 of F_Z; sums of N terms are rounded to
 # 1e-16 each.
@@ -52,9 +52,9 @@ STATEMENTS = {
     "less_strain": "mu_sapp < mu_s, pushed from "
     f"{SLIGHTLY_BELOW:g} of maximal residual strain",
     "rigid": "mu_sapp = mu_s for a rigid slider, N = 1",
-    "fast": "F_X passes mu_s F_Z in motion from (mu_s - mu_k) F_Z / sqrt(K M) on,"
+    "fast": "in motion F_X exceeds mu_s F_Z if V exceeds (mu_s - mu_k) F_Z / sqrt(K M),"
     f" to {100 * RIGID_TOLERANCE:g} %",
-    "below": "some block at rest is below its limit (least part at slip onsets, above 0)",
+    "below": "at each slip onset a block is below its limit (least share, above 0)",
 }
 
 
@@ -172,7 +172,7 @@ def largest_load(chain: Chain, speed: float) -> float:
     """Largest F_X [N] of a chain driven at `speed` [m/s], from natural length to the end
     of its first global slip.
 
-    Driven fast, a chain never stops: the run then includes one swing of the whole
+    A chain that is driven fast never stops. Its run includes one swing of the whole
     slider on the drive's spring.
     """
     driven = replace(chain, drive_velocity=speed)
@@ -209,8 +209,8 @@ def below_limit(scene: str, run: Run) -> Check:
     """Check that a run stays away from the state of Eq. 12, in which all blocks are at
     their limits at the same time.
 
-    At the onset of each slip some block is farthest below its limit mu_s w_i. The value
-    is the smallest of these distances, over mu_s w_i.
+    At the onset of each slip we take the block that is farthest below its limit mu_s w_i.
+    The value is the smallest of these distances over all slips, over mu_s w_i.
     """
     forces = run.spring_forces(slip_table(run)["onset_s"])
     below = 1.0 + np.diff(forces, append=0.0) / run.chain.strength

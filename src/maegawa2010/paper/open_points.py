@@ -47,12 +47,12 @@ def short_events(t: Tables) -> Pair:
 
 
 def slider(t: Tables, column: str, scene: str = UNIFORM) -> float:
-    """A parameter of the slider, from a column that has one value in a scene."""
+    """A parameter of the slider, from a column that is constant in a scene."""
     return float(t[f"{scene}_slips"][column].unique().item())
 
 
 def difference_of_cells() -> float:
-    """Difference of the two load cells' loads over F_Z."""
+    """Difference between the loads of the two load cells, over F_Z."""
     low, high = printed.CELL_LOADS_N
     return (high - low) / (high + low)
 
@@ -86,7 +86,7 @@ def end_to_end(t: Tables) -> Pair:
     return k / (n - 1), k / n
 
 
-# By point of open_points.csv, which describes the paper's choice and ours in words.
+# Numbers of each point. The parentheses in open_points.csv say what the numbers are.
 NUMBERS: dict[str, Callable[[Tables], Pair]] = {
     "eq12": eq12,
     "fig8": lambda t: (0, slider(t, "theta", LEADING)),

@@ -28,7 +28,7 @@ def cell(table: pd.DataFrame, column: str, **where: Any) -> Any:
     values = rows(table, **where)[column]
     if len(values) != 1:
         chosen = ", ".join(f"{name} = {value}" for name, value in where.items())
-        raise IndexError(f"{len(values)} rows have {chosen}: needed is one")
+        raise IndexError(f"{len(values)} rows have {chosen}, but one must")
     return values.iloc[0]
 
 

@@ -1,5 +1,4 @@
-"""The members of a study, each of them one run (see `runs.py`), and statistics of the
-runs."""
+"""The members of a study, which are runs (see `runs.py`), and statistics of the runs."""
 
 from __future__ import annotations
 
@@ -43,7 +42,7 @@ class Study:
     members : DataFrame
         One row per run. Columns are arguments of `Chain.from_slider`; duration, the time
         limit of the run [s]; load_noise (see `chain_of`); group and draw, which select
-        the stream of random numbers; and labels.
+        the random numbers; and labels.
     seed : int
         Seed of all random numbers.
     """
@@ -58,8 +57,8 @@ class Study:
 
 
 def stack(blocks: Iterable[Mapping[str, Any]]) -> pd.DataFrame:
-    """Stack the members of several ensembles; each block has a value or an array for
-    every column."""
+    """Stack the members of several ensembles; each of `blocks` has a value or an array
+    for every column."""
     return pd.concat([pd.DataFrame(block) for block in blocks], ignore_index=True)
 
 
@@ -98,7 +97,7 @@ def gather(chunks: Iterable[pd.DataFrame]) -> pd.DataFrame:
         "member", ignore_index=True
     )
     if (together["member"] != together.index).any():
-        raise ValueError("the chunks are not all members of their study, each once")
+        raise ValueError("the chunks must have every member of their study once")
     table = together.drop(columns="member")
     constant = [name for name in LEFT_OUT & set(table) if len(set(table[name])) == 1]
     return table.drop(columns=constant)

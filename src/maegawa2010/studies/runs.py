@@ -22,12 +22,13 @@ from precursors.support.files import write_table
 BLOCKS_PER_BATCH = 2000
 # L_p/L beyond which the experiment's precursors grow faster (Sect. 6.1).
 KINK = 0.7
-# Error of a transition's time from which on single events are not predicted.
+# Error of a transition's time above which single events count as unpredicted.
 UNPREDICTED_S = 1e-6
-# Of a run, what is tried first, and then twice as much: trying takes 24 runs, and with
-# many blocks little is predictable.
+# `predictable` tries this much of a run first, and then twice as much again and again: a
+# trial takes 24 runs, and with many blocks only a short time is predictable.
 TRIED_S = 0.005
-# A run that is made again ends so much before that, or where it ends by itself.
+# A run that is made again ends at this fraction of its predictable time, or at its own
+# end.
 BEFORE = 0.99
 
 
@@ -83,9 +84,9 @@ def speedup(slips: NDArray[np.void]) -> float:
     """Growth of L_p with F_X beyond KINK L over the growth before, from the counted
     events of `slip_rows`.
 
-    The first part ends with the last event of at most KINK L before the first event of
-    the whole length, which ends the second part. NaN if L_p does not grow in the first
-    part, or F_X in the second.
+    The second part ends with the first event of the whole length. The first part ends
+    with the last event before it that is no longer than KINK L. NaN if L_p does not grow
+    in the first part, or F_X does not grow in the second.
     """
     counted = slips[slips["counted"]]
     front, load, n_blocks = (
@@ -104,7 +105,7 @@ def speedup(slips: NDArray[np.void]) -> float:
 
 
 def predictable(run: Run) -> float:
-    """Time until which single events are predicted [s]."""
+    """Time until which single events can be predicted [s]."""
     tried = min(TRIED_S, run.duration)
     while True:
         same = simulate(run.chain, tried, start_positions=run.start_positions)
@@ -121,8 +122,10 @@ def known_until(run: Run) -> float:
 
 
 def so_far(run: Run) -> dict[str, float]:
-    """The numbers of a run up to its first global slip, or to its end before that:
-    mu_sapp is the largest F_X/F_Z, global_slip_s the onset of the last event."""
+    """The numbers of a run up to its first global slip, or to its end if it has none.
+
+    mu_sapp is the largest F_X/F_Z, and global_slip_s the onset of the last event.
+    """
     slips = slip_table(run)
     slips = slips[until_global(slips["is_global"])]
     return {

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 
 from precursors.figures import style
 
-# A figure has many objects: the garbage collector would take a seventh of the time.
+# A figure has so many objects that the garbage collector would take a seventh of the time.
 gc.disable()
 
 

@@ -1,4 +1,4 @@
-"""Error messages of one line and reading and writing of files, for all scripts."""
+"""Error messages, logs, and reading and writing of files, for all scripts."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def read(load: Callable[[str], Content], path: str) -> Content:
     try:
         return load(path)
     except ValueError as error:
-        raise ValueError(f"{error}: delete it, and it is made again") from error
+        raise ValueError(f"{error}: delete it to have it made again") from error
 
 
 def read_all(

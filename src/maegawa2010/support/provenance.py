@@ -62,8 +62,7 @@ def provenance(config: Mapping[str, Any], root: Path, results: Path) -> dict[str
 def checksums(
     paths: Iterable[Path], root: Path, leave_out: tuple[str, ...] = ()
 ) -> dict[str, str]:
-    """SHA-256 of files by path relative to `root`; hidden and compiled files are left
-    out."""
+    """SHA-256 of files by path relative to `root`, without hidden and compiled files."""
     table = {}
     for path in sorted(paths):
         name = path.relative_to(root).as_posix()

@@ -7,8 +7,8 @@ import pandas as pd
 import scipy
 from numpy.typing import ArrayLike
 
-# Two intervals with this confidence contain both medians in at least 95 % of cases
-# (Bonferroni).
+# With this confidence for each of two intervals, both contain their medians with at least
+# 95 % (Bonferroni).
 EACH_OF_TWO = 0.975
 # Relative noise in the normal loads of an ensemble: a tenth of the uncertainty of an
 # experiment, and well above rounding.
@@ -22,8 +22,8 @@ def nine_tenths(values: pd.Series) -> dict[str, float]:
 
 
 def median_interval(values: ArrayLike, share: float = 0.95) -> tuple[float, float]:
-    """Interval that contains the median of the distribution of the values in at least
-    this share of cases; NaN for too few values (below six for 95 %)."""
+    """Interval that contains the true median with at least the confidence `share`; NaN
+    for too few values (fewer than six for 95 %)."""
     interval: Any = scipy.stats.quantile_test(
         np.asarray(values, float), p=0.5
     ).confidence_interval(share)
@@ -46,7 +46,6 @@ def compared(low: float, high: float, tolerance: float) -> str:
 
 
 def share_interval(hits: int, of: int) -> tuple[float, float]:
-    """95 % interval of a probability from a number of hits (Clopper and Pearson): never
-    too short."""
+    """95 % interval of a probability from `hits` in `of` trials (Clopper and Pearson)."""
     interval = scipy.stats.binomtest(hits, of).proportion_ci()
     return float(interval.low), float(interval.high)

@@ -1,5 +1,5 @@
 rule tabulate_balance:
-    """Measure the mean of F_X in six runs, and how slips change the distance from kinetic balance."""
+    """Measure the mean of F_X in six runs, and how slips change the distance R from kinetic balance."""
     output:
         balance=report("results/tables/balance.csv", category="Tables"),
         balance_curves="results/tables/balance_curves.csv",
@@ -41,7 +41,7 @@ rule draw_balance:
 if IS_COMMITTED:
 
     rule check_balance:
-        """Make the beginnings of the committed long runs again, and hand their tables on if they are the same."""
+        """Make the beginnings of the long runs again, and copy the committed tables if they agree."""
         input:
             tables=collect(COMMITTED / "balance_{name}.csv", name=["runs", "first_slips", "blocks", "loads"]),
             provenance=COMMITTED / "provenance.csv",

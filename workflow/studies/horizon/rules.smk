@@ -73,7 +73,7 @@ rule draw_horizon:
 
 
 rule horizon:
-    """Proofs of transitions, and how long a run is accurate."""
+    """The proofs of transitions, and how long a run is accurate."""
     input:
         rules.take_certificates.output,
         rules.tabulate_horizon.output,
@@ -98,7 +98,7 @@ rule prove_again:
 
 
 rule prove_scenes:
-    """All proofs, made again (on demand)."""
+    """Prove the transitions of all certificates again (on demand)."""
     input:
         collect("results/tables/proved/{chain}.csv", chain=CHAINS),
     localrule: True

@@ -14,7 +14,7 @@ rule tabulate_models:
 
 
 rule models:
-    """Simpler models, and the questions that each of them answers."""
+    """Simpler models, and which questions each of them answers."""
     input:
         rules.tabulate_models.output,
     localrule: True

@@ -1,11 +1,11 @@
 rule run_noise:
-    """Simulate one chunk (such as 1of4) of the members, which are runs with noise in the normal loads."""
+    """Simulate one chunk (such as 1of4) of the runs with noise in the normal loads."""
     output:
         members="results/ensembles/noise_members/{chunk}.csv",
     log:
         "results/logs/run_noise/{chunk}.log",
     resources:
-        seconds=2,  # expected run time
+        seconds=2,  # expected computing time
     params:
         sliders=SLIDERS,
         duration=config["duration"],
@@ -16,7 +16,7 @@ rule run_noise:
 
 
 rule tabulate_noise:
-    """Join the chunks, summarise the members of each scene, and compare the scenes."""
+    """Join the chunks, summarise the runs of each scene, and compare the scenes."""
     input:
         chunks=collect("results/ensembles/noise_members/{chunk}.csv", chunk=CHUNKS),
     output:

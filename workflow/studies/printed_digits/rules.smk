@@ -1,5 +1,5 @@
 rule run_printed_digits:
-    """Simulate one chunk of the members, which are sliders with the same printed inputs."""
+    """Simulate one chunk of the sliders whose inputs round to the printed digits."""
     output:
         members="results/ensembles/digits_members/{chunk}.csv",
     log:
@@ -16,7 +16,7 @@ rule run_printed_digits:
 
 
 rule tabulate_printed_digits:
-    """Join the chunks, and count the members with the paper's numbers."""
+    """Join the chunks, and count the sliders that give the paper's numbers."""
     input:
         chunks=collect("results/ensembles/digits_members/{chunk}.csv", chunk=CHUNKS),
     output:
@@ -35,7 +35,7 @@ rule tabulate_printed_digits:
 if IS_PAPER_SLIDER:
 
     rule draw_printed_digits:
-        """Draw the paper's six numbers, and how often the counts survive noise and other digits."""
+        """Draw the paper's six numbers, and how often runs with noise or other digits give the same counts."""
         input:
             slips=SLIPS,
             noise="results/tables/noise_members.csv",

@@ -4,11 +4,11 @@ if len(config["resolution"]["runs"]) != len(config["resolution"]["n_blocks"]):
 if IS_COMMITTED:
 
     rule check_resolution:
-        """Make the beginnings of the committed study again, and hand its tables on if they are the same."""
+        """Make the beginnings of the long study again, and copy its committed tables if they agree."""
         input:
             tables=[COMMITTED / "resolution.csv", COMMITTED / "resolution_differences.csv"],
             provenance=COMMITTED / "provenance.csv",
-            # which has the scenes' own N, if it is the committed one
+            # The study of noise has the scenes' own N. It can be compared unless the configuration changes it.
             noise=(
                 []
                 if "noise" in GIVEN
@@ -32,7 +32,7 @@ if IS_COMMITTED:
 else:
 
     rule run_resolution:
-        """Simulate one chunk of the members, which are runs with other numbers of blocks."""
+        """Simulate one chunk of the runs with other numbers of blocks."""
         output:
             members="results/ensembles/resolution_members/{chunk}.csv",
         log:
@@ -48,7 +48,7 @@ else:
             "run_resolution.py"
 
     rule tabulate_resolution:
-        """Join the chunks, summarise the members for each number of blocks, and compare the scenes."""
+        """Join the chunks, summarise the runs for each number of blocks, and compare the scenes."""
         input:
             chunks=collect("results/ensembles/resolution_members/{chunk}.csv", chunk=CHUNKS),
             noise="results/tables/noise_members.csv",
@@ -98,7 +98,7 @@ rule draw_resolution:
 
 
 rule resolution:
-    """Convergence with the number of blocks."""
+    """How events and mu_sapp depend on the number of blocks."""
     input:
         rules.check_resolution.output if IS_COMMITTED else rules.tabulate_resolution.output,
         rules.draw_resolution.output,

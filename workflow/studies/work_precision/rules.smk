@@ -2,7 +2,7 @@ proved = {
     chain: abs(parse_theta(config["horizon"]["proved"][chain].get("theta", 0)))
     for chain in config["horizon"]["compared"]
 }
-EVEN = min(proved, key=proved.get)  # the chain with the most even load
+EVEN = min(proved, key=proved.get)  # the chain with the most even normal load
 
 
 rule tabulate_work_precision:
@@ -27,7 +27,7 @@ rule tabulate_work_precision:
 if IS_COMMITTED:
 
     rule check_speed:
-        """Compare the committed measurements with those of this build, but for seconds, and hand them on."""
+        """Compare the committed measurements, except times, with those of this build, and copy them if they agree."""
         input:
             tables=[COMMITTED / "speed.csv", COMMITTED / "beside_heyoka.csv"],
             provenance=COMMITTED / "provenance.csv",
@@ -59,7 +59,7 @@ elif HAS_LONG:
             code=digest("tabulate_work_precision"),
 
     rule beside_heyoka:
-        """Measure the exact solver beside heyoka.py and DOP853, in five sessions."""
+        """Compare computing times and errors of the exact solver, heyoka.py and DOP853 in five sessions."""
         input:
             bench=ROOT / "benchmarks/bench.py",
             ensemble=ROOT / "benchmarks/heyoka_ensemble.py",
@@ -80,7 +80,7 @@ elif HAS_LONG:
 
 
 rule draw_work_precision:
-    """Draw errors against computing time, as measured by this build and as published."""
+    """Draw errors against computing time, from this build and from the published measurements."""
     input:
         measured="results/tables/work_precision.csv",
         published=["results/tables/speed.csv"] if HAS_LONG else [],

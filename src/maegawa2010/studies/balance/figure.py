@@ -12,9 +12,9 @@ from precursors.figures.style import Options
 
 HEIGHT_MM = 80.0
 FINDING = "the mean load is the kinetic friction, whatever the loading"
-AGREES = 0.001  # of F_Z: so near to mu_k is every mean where the title says so
-LOADS = (0.28, 0.74)  # F_X/F_Z: words stand above the curves
-TICKS = 0.15  # from mu_k
+AGREES = 0.001  # the title states the finding if every mean is this near to mu_k
+LOADS = (0.28, 0.74)  # range of the axis, with room for words above the curves
+TICKS = 0.15  # distance from mu_k
 CURVE: Options = {"linewidth": 0.6}
 BEYOND: Options = CURVE | {"color": style.GREY}
 MEAN: Options = {"color": style.BLACK, "linewidth": 1.0, "solid_capstyle": "butt"}
@@ -23,7 +23,10 @@ WORDS: Options = {"y": 0.95, "va": "top", "fontsize": "small", "fontweight": "bo
 
 def draw(table: pd.DataFrame, curves: pd.DataFrame) -> Figure:
     """Draw F_X/F_Z over time and its mean, a row for each scene and a column for each
-    number of blocks of balance.csv; in grey where single slips are not predicted."""
+    number of blocks.
+
+    `table` is balance.csv. A curve is grey where single slips cannot be predicted.
+    """
     scenes, sizes = list(table["scene"].unique()), list(table["n_blocks"].unique())
     with style.page(style.PAGE_MM, HEIGHT_MM) as figure:
         panels = figure.subplots(

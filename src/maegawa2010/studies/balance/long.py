@@ -1,5 +1,6 @@
-"""Longer runs, in full studies only: the mean of F_X for many chains, R at the first
-global slip, the mean friction of each block, and mu_sapp with a heavy block."""
+"""Longer runs, in full builds only: the mean of F_X for many chains, the distance R from
+kinetic balance at the first global slip, the mean friction of each block, and mu_sapp
+with a heavy block."""
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
@@ -31,35 +32,37 @@ from precursors.solver.simulate import simulate
 from precursors.support.waiting import in_threads
 
 THETAS = ("-5/6", 0, "5/6")
-# Stiffness K [N/m] and velocity V [m/s] of the drive: the least is a thirtieth of the
-# largest.
+# Stiffness K [N/m] and velocity V [m/s] of the drive.
 DRIVES = {"drive_stiffness": (1e5, 8e5, 3e6), "drive_velocity": (1e-4, 5e-4, 3e-3)}
-SECONDS = 10.0  # after which a run without a global slip is given up
-AT_REST = 1e-3  # s, in which a new slider does not slip
-# Normal loads at places x from 0 to 1, but for a factor. Where no block keeps a share as
-# blocks shrink:
+SECONDS = 10.0  # largest duration of a run to the first global slip
+AT_REST = 1e-3  # s; a new slider does not slip earlier
+# Normal loads at x from 0 to 1, up to a factor. As blocks shrink, the share of each of
+# them in F_Z vanishes.
 SHARED: dict[str, Callable[[FloatArray], FloatArray]] = {
     "even": np.ones_like,
     "bump": lambda x: 1.0 + 8.0 * np.exp(-(((x - 0.5) / 0.1) ** 2)),
     "notch": lambda x: 1.0 - 0.95 * np.exp(-(((x - 0.5) / 0.1) ** 2)),
     "alternating": lambda x: np.where(np.arange(len(x)) % 2, 9.0, 1.0),
 }
-# Where one block carries `HEAVY` of an even load, and its place.
+# In other loads one block carries the share `HEAVY` of F_Z, at a place x; the rest is
+# even.
 HEAVY = 0.2
 PLACES = {"heavy first": 0.0, "heavy middle": 0.5, "heavy last": 1.0}
-# What may differ on another machine before single events are unpredicted (`UNPREDICTED_S`):
-# loads over F_Z, friction over w_i, and R over itself.
+# Tolerances for another machine, while single events can be predicted (`UNPREDICTED_S`):
+# of loads over F_Z and friction over w_i, of R (relative), and of counts.
 CLOSE = 1e-6
 CLOSE_R = 1e-5
-SAME = 0.0  # of a count
+SAME = 0.0
 
 
 def runs_table(
     slider: Mapping[str, Any], settings: Mapping[str, Any], seed: int
 ) -> pd.DataFrame:
-    """One row per chain in lasting stick-slip: seconds, over which the mean is taken;
-    the columns of `Mean`; largest, the largest F_X/F_Z then; and the beginning, as in all
-    tables here (`long_run`)."""
+    """One row per chain in lasting stick-slip.
+
+    seconds is the time over which the mean is taken, and largest is the largest F_X/F_Z
+    in this time. Further columns are those of `Mean` and of the beginning (`long_run`).
+    """
     tasks = [
         partial(mean_row, varied, chain, seconds)
         for varied, chain, seconds in cases(slider, settings, seed)
@@ -70,7 +73,7 @@ def runs_table(
 def cases(
     slider: Mapping[str, Any], settings: Mapping[str, Any], seed: int
 ) -> Iterator[tuple[str, Chain, float]]:
-    """What differs from the slider, the chain, and how long it is driven [s]."""
+    """Yield what is varied in the slider, the chain, and the duration of its run [s]."""
     sizes = dict(zip(settings["n_blocks"], settings["seconds"], strict=True))
     for n, theta in product(sizes, THETAS):
         chain = Chain.from_slider(**{**slider, "n_blocks": n, "theta": theta})
@@ -92,7 +95,7 @@ def cases(
 
 
 def mean_row(varied: str, chain: Chain, seconds: float) -> dict[str, Any]:
-    """Drive a chain: a row of balance_runs.csv."""
+    """Run a chain; return its row of balance_runs.csv."""
     run, start = lasting(chain, seconds)
     return {
         "varied": varied,
@@ -125,8 +128,9 @@ def first_slips_table(
 ) -> pd.DataFrame:
     """R at the first global slip, a row for each scene and number of blocks.
 
-    runs have noise in the normal loads, and reached a global slip. R_start_J is R of the
-    new slider without noise. The others are medians of what `at_first_slip` has.
+    runs is the number of runs with noise in the normal loads, and reached how many of
+    them have a global slip. R_start_J is R of the new slider without noise. Columns that
+    end in _q50 are medians of the numbers of `at_first_slip`.
     """
     rows = []
     for scene, slider in sliders.items():
@@ -143,7 +147,7 @@ def first_slips_table(
 
 
 def noisy(slider: Mapping[str, Any], n: int, runs: int, seed: int) -> list[Chain]:
-    """A slider in n blocks, and with noise in its normal loads."""
+    """A slider of n blocks: first without noise in its normal loads, then with noise."""
     member = {**slider, "n_blocks": n, **draws(runs), "group": n}
     return [chain_of(one, seed) for one in stack([member]).to_dict("records")]
 
@@ -151,11 +155,11 @@ def noisy(slider: Mapping[str, Any], n: int, runs: int, seed: int) -> list[Chain
 def loads_table(
     slider: Mapping[str, Any], settings: Mapping[str, Any], seed: int
 ) -> pd.DataFrame:
-    """mu_sapp under loads that many blocks share and under loads with a heavy block, a
-    row for each load and number of blocks.
+    """mu_sapp under the loads of `SHARED` and those with a heavy block, a row for each
+    load and number of blocks.
 
-    share is the largest w_i/F_Z, reached how many of the runs with noise have a global
-    slip, and `nine_tenths` of mu_sapp are of those.
+    share is the largest w_i/F_Z. reached is the number of runs with noise that have a
+    global slip; the quantiles of mu_sapp (`nine_tenths`) are of these runs.
     """
     rows = []
     for load, n in product([*SHARED, *PLACES], settings["n_blocks"]):
@@ -172,7 +176,7 @@ def loads_table(
 def loaded(
     slider: Mapping[str, Any], load: str, n: int, runs: int, seed: int
 ) -> list[Chain]:
-    """A slider in n blocks under a load, with noise."""
+    """Sliders of n blocks under a load, with noise."""
     chain = Chain.from_slider(**{**slider, "n_blocks": n})
     weights = weights_of(load, n) * chain.normal_load
     random = np.random.default_rng([seed, n])
@@ -196,7 +200,7 @@ def check(
     sliders: Mapping[str, Mapping[str, Any]],
     settings: Mapping[str, Any],
 ) -> pd.DataFrame:
-    """Compare the beginnings in the committed tables, by name, with those made again."""
+    """Compare the beginnings in committed tables (by name) with those made again."""
     seed = settings["seed"]
     runs = tables["balance_runs"].reset_index(names="case")
     blocks, loads, slips = (

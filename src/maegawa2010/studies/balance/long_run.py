@@ -1,7 +1,8 @@
-"""One long run: what is measured of it, and its beginning, which every build makes again.
+"""What is measured in a long run, and its beginning, which every build makes again.
 
-Until known_s single events are predicted. The columns `first_...` of a table are of the
-run of a row, or of the first of its runs with noise, until then.
+The beginning ends at known_s, until when single events can be predicted. The columns
+`first_...` of a table describe it. In a row of several runs, it is that of the first run
+with noise.
 """
 
 import math
@@ -19,14 +20,14 @@ from precursors.model.statics import maximal_compressions, positions_from_compre
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
-LEFT_OUT = 0.2  # of a run, at its start
+LEFT_OUT = 0.2  # share of a run at its start that does not count
 MOST_TRANSITIONS = 30_000_000
 # Points between two transitions, at which forces are read for their mean.
 POINTS = 8
 
 
 def lasting(chain: Chain, seconds: float) -> tuple[Run, float]:
-    """A run from rest in kinetic balance, where R = 0, and from when on it counts [s]."""
+    """A run from rest in kinetic balance (R = 0), and the time from which it counts [s]."""
     sliding = chain.mu_k / chain.mu_s * maximal_compressions(chain)
     start = positions_from_compressions(sliding)
     run = simulate(
@@ -36,8 +37,8 @@ def lasting(chain: Chain, seconds: float) -> tuple[Run, float]:
 
 
 def mean_friction(run: Run, start: float, end: float) -> FloatArray:
-    """Mean friction of each block from `start` to `end` [s], in N, shape (N,): what its
-    springs push it with, less what has gone into its velocity."""
+    """Mean friction [N] of each block from `start` to `end` [s], shape (N,): the mean
+    force of its springs less its mean gain of momentum per time."""
     inside = run.transitions["time"]
     edges = np.unique([start, *inside[(inside > start) & (inside < end)], end])
     last = len(edges) - 1
@@ -50,10 +51,16 @@ def mean_friction(run: Run, start: float, end: float) -> FloatArray:
 
 
 def at_first_slip(run: Run) -> dict[str, float]:
-    """R at the onset of the first global slip [J], or NaN; bound = sqrt(2 K R)/F_Z, which F_X/F_Z
-    then keeps to mu_k; excess = mu_sapp - mu_k. Of the events of Fig. 13 the median
-    bound on the distance of F_X/F_Z from the line F_X = mu_k W(L_p), line_bound, and
-    the root mean square of that distance, line_rms.
+    """Distance from kinetic balance at the first global slip and at the events of Fig. 13.
+
+    Returns
+    -------
+    dict
+        R_J, R at the onset of the first global slip [J], or NaN; bound = sqrt(2 K R)/F_Z,
+        the largest distance of F_X/F_Z from mu_k that this R allows; and excess =
+        mu_sapp - mu_k. Of the events of Fig. 13: line_bound, the median bound on the
+        distance of F_X/F_Z from the line F_X = mu_k W(L_p); and line_rms, the root mean
+        square of this distance.
     """
     chain = run.chain
     slips = slip_table(run)

@@ -1,5 +1,5 @@
-"""Six runs: the mean of F_X over the path of the drive, and what slips do to the distance
-R from kinetic balance (`precursors.analysis.balance`)."""
+"""The mean of F_X over the path of the drive in six runs, and how slips change the
+distance R from kinetic balance (`precursors.analysis.balance`)."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -16,13 +16,13 @@ from precursors.model.chain import Chain
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
-# Columns of pixels of a panel: two points in each show all peaks.
+# Columns of pixels of a panel. Two points in each column show all peaks.
 PIXELS = 400
 
 
 class Mean(NamedTuple):
-    """Mean of F_X over a path of the drive, and what makes it differ from mu_k F_Z, all
-    over F_Z: mean = mu_k + stored + backward - remainder."""
+    """Mean of F_X over a path of the drive, and the terms by which it differs from
+    mu_k F_Z, all over F_Z: mean = mu_k + stored + backward - remainder."""
 
     mean: float
     stored: float  # by the change of R
@@ -37,10 +37,10 @@ def balance_tables(
 ) -> dict[str, pd.DataFrame]:
     """The tables of the runs, by file name.
 
-    balance.csv has a row for each run: predictable_s, until when single events are
-    predicted; from the onset of the first global slip to that of the last (first_s,
-    last_s) the columns of `Mean` and the largest F_X/F_Z; and those of `over_slips`.
-    balance_curves.csv has points of F_X/F_Z.
+    balance.csv has a row for each run. Single events can be predicted until
+    predictable_s. The columns of `Mean` and the largest F_X/F_Z are of the time from the
+    onset of the first global slip to that of the last (first_s to last_s). `over_slips`
+    gives further columns. balance_curves.csv has points of F_X/F_Z.
     """
     rows, curves = [], []
     for scene, slider in sliders.items():
@@ -58,7 +58,7 @@ def balance_tables(
 
 
 def row_of(run: Run) -> dict[str, float]:
-    """A row of balance.csv; what needs two global slips is NaN without them."""
+    """A row of balance.csv; numbers that need two global slips are NaN without them."""
     slips = slip_table(run)
     onsets = slips["onset_s"][slips["is_global"]]
     first, last = onsets.min(), onsets.max()
@@ -76,7 +76,7 @@ def row_of(run: Run) -> dict[str, float]:
 
 
 def mean_of(run: Run, start: float, end: float) -> Mean:
-    """Mean of F_X from `start` to `end` [s], and what it consists of."""
+    """Mean of F_X from `start` to `end` [s], and its terms."""
     chain = run.chain
     terms = balance(run, start, end)
     unit = chain.normal_load * chain.drive_velocity * (end - start)
@@ -96,11 +96,11 @@ def largest(run: Run, start: float, end: float) -> float:
 
 
 def over_slips(run: Run, slips: pd.DataFrame) -> dict[str, float]:
-    """What slips do to R, in units of R at their onset: the median and the largest change
-    of R, and work that the drive does meanwhile beside kinetic friction.
+    """How slips change R, over R at their onset.
 
-    slips is their number, and slips_backward that of those in which a block slides
-    backward.
+    change is the change of R. work is the work that the drive does during the slip, less
+    that against kinetic friction. Both have a median and a largest value. slips is the
+    number of slips; in slips_backward of them a block slides backward.
     """
     over = slips.dropna(subset="end_s")
     before, after = distance(run, over["onset_s"]), distance(run, over["end_s"])
@@ -116,8 +116,8 @@ def over_slips(run: Run, slips: pd.DataFrame) -> dict[str, float]:
 
 
 def curve(run: Run) -> pd.DataFrame:
-    """F_X/F_Z as few points that look the same: the least and the largest in each column
-    of pixels."""
+    """F_X/F_Z as few points that look like all of them: the least and the largest in each
+    column of pixels."""
     times, loads = load_curve(run)
     column = np.minimum(PIXELS * times // run.duration, PIXELS - 1)
     of_column = pd.Series(loads).groupby(column)

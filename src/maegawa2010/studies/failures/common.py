@@ -1,4 +1,4 @@
-"""The curves of which failure modes consist."""
+"""The curves that show a failure mode."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 class Curve:
     """A curve of a failure mode: name, points and role.
 
-    The role says whether it is measured with the failing method, exact, predicted by
-    theory (then it has the name of the failing curve), or a reference to compare with.
+    The role says whether the curve is measured with the failing method, exact, predicted
+    by theory, or a reference. A predicted curve has the name of the failing one.
     """
 
     name: str

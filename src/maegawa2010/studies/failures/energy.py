@@ -16,7 +16,7 @@ from precursors.model.chain import Chain
 from precursors.solver.simulate import simulate
 
 # Number of steps over which the energy factor is averaged: many for leapfrog, whose
-# energy also oscillates; few for RK4, which damps the mode below rounding.
+# energy oscillates; few for RK4, which soon damps the mode below rounding.
 UNSTABLE_STEPS = {"rk4": 20, "leapfrog": 200}
 POINTS = 21
 # With friction: values of omega dt beyond RK4's limit, and the end of its runs.

@@ -14,7 +14,7 @@ from precursors.model.chain import Chain
 from precursors.solver.run import Run
 from precursors.solver.simulate import simulate
 
-# At the loose relative tolerance DOP853 steps over two roots of a velocity.
+# A relative tolerance so loose that DOP853 steps over two roots of a velocity.
 LOOSE = 1e-7
 TIGHT = 1e-10
 
@@ -38,8 +38,8 @@ def missed_roots() -> list[Curve]:
     chain = Chain.from_slider()
     exact = simulate(chain, 10.0, "global slip")
     wrong = transitions_right(solve_scipy(chain, 10.0, LOOSE, "global slip").run, exact)
-    # The motion from the last right transition on, for three times as long as it really
-    # lasts.
+    # Integrate from the last right transition for three times as long as the motion
+    # really lasts.
     column = chain.n_blocks + int(exact.transitions["block"][wrong]) - 1
     motion = motion_after(exact, wrong)
     span = 3.0 * float(exact.intervals[wrong]) / motion.tau

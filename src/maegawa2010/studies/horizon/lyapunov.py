@@ -1,8 +1,8 @@
 """The largest Lyapunov exponent of a chain: how fast two nearly equal runs diverge.
 
 The difference is measured between slip events, when all blocks rest and the runs differ
-in spring forces only. It does not include a shift in time, or of all blocks with the
-drive, which neither grows nor decays.
+in spring forces only. It leaves out a shift in time and a shift of all blocks with the
+drive, because such shifts neither grow nor decay.
 """
 
 from collections.abc import Mapping
@@ -26,8 +26,8 @@ CONFIDENCE = 0.95
 # Share of the run left out at its start, before stick-slip is steady.
 TRANSIENT = 0.1
 SEED = 2010
-# Initial distance of the two runs in units of mu_s F_Z: far above rounding, and small
-# enough to grow linearly.
+# Initial distance of the two runs in units of mu_s F_Z: far above rounding, and so small
+# that its growth does not depend on it.
 DISTANCE = 1e-9
 # A distance that shrinks by more than this factor in one event is lost in rounding.
 LEAST = 1e-4
@@ -50,8 +50,8 @@ def lyapunov_exponent(run: Run) -> dict[str, float]:
     Raises
     ------
     ValueError
-        If the run has fewer events than stretches, or all differences die out, as with
-        one block, whose slips all end in the same state.
+        If the run has fewer events than stretches, or all differences die out. With one
+        block they do, because all its slips end in the same state.
     """
     onset_s, growth = _growth(run)
     steady = np.arange(int(TRANSIENT * len(onset_s)), len(onset_s))

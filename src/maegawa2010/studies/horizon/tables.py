@@ -1,4 +1,4 @@
-"""Compare the solver with proofs: its actual errors, and the errors that it predicts."""
+"""Compare the solver with proofs: its actual and its predicted errors."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -78,10 +78,10 @@ def error_table(validation: Validation) -> pd.DataFrame:
 def summary(validation: Validation, tolerance: float) -> dict[str, float]:
     """Accuracy of the run, a row of solver_vs_proof.csv.
 
-    `right_until_s` is the time of the first transition with an error above the tolerance
-    [s], with another block, or with another mode; `horizon_s` is the predicted time of
-    this. `largest_ratio` is the largest ratio of actual to predicted error, both the
-    largest so far.
+    `right_until_s` is the time of the first wrong transition: its error is above the
+    tolerance [s], or its block or mode is another. `horizon_s` is the prediction of this
+    time. `largest_ratio` is the largest ratio of actual to predicted error, where each
+    error is the largest so far.
     """
     run, compared, predictions = validation
     errors = largest_errors(validation)

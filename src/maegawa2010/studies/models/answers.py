@@ -60,7 +60,7 @@ def loading_answers(chain: Chain, slips: NDArray[np.void]) -> dict[str, Any]:
     }
 
 
-# From the smallest to the largest; each gives its answers for a chain by quantity.
+# Models from the smallest to the largest; each gives answers for a chain by quantity.
 MODELS: dict[str, Model] = {
     "statics": statics.answers,
     "front_law": statics.front_law_answers,

@@ -12,9 +12,8 @@ and they move by (1 + overshoot) u*. A resting block that this loads beyond mu_s
 the set, and the motion of the larger set is computed again from its start. A block that
 would move against its direction leaves the set for good: first those that joined it, and
 if there are none, those that began the slip. When no block joins, all stop. Blocks whose
-net force then exceeds mu_s w begin a further stage of the same event. Without time, "all
-blocks at the same instant" has no meaning: here a global slip is an event in which every
-block slides.
+net force then exceeds mu_s w begin a further stage of the same event. Instants have no
+meaning without time, so a global slip is here an event in which every block slides.
 
 Two values of the overshoot have a physical meaning:
 
@@ -48,7 +47,8 @@ compiled = entry(Path(__file__), error_model="numpy")
 
 
 class Part(IntEnum):
-    """A block's part in a stage; of the blocks that turn round, the highest leave first."""
+    """A block's part in a stage; of blocks that turn round, those with the highest part
+    leave first."""
 
     BEGAN = 0
     JOINED = 1

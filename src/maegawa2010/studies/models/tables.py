@@ -37,11 +37,11 @@ class Question:
     shown
         One number that represents the answer in the table.
     quantiles
-        If there are any, the answers are these quantiles over runs with noise in the
-        normal loads, because a single run is one draw of many. The table has the last
-        quantile, and the largest of their errors.
+        If given, the answers are these quantiles over runs with noise in the normal
+        loads, because a single run is one draw of many. The table has the last quantile,
+        and the largest error of all quantiles.
     quantity
-        The quantity of the models, if it is not the name of the question.
+        The quantity of the models, if its name is not that of the question.
     """
 
     tolerance: float
@@ -71,7 +71,7 @@ QUESTIONS = {
     "first_load": Question(1e-6, relative),  # rounding errors only
     # The paper's authors counted events by eye.
     "events_counted": Question(1, difference, "events", quantiles=(0.5,)),
-    # Small beside (mu_s - mu_k)/mu_k = 0.56, so that neither mu_k nor mu_s is an answer.
+    # Far below (mu_s - mu_k)/mu_k = 0.56, so that mu_k and mu_s do not pass as answers.
     "mu_sapp": Question(0.05, relative, quantiles=(0.5,)),
     "mu_sapp_band": Question(
         0.05, relative, quantiles=(0.05, 0.95), quantity="mu_sapp"
@@ -99,11 +99,11 @@ def compare_models(
     Returns
     -------
     DataFrame
-        One row for each scene, question and model with such a quantity: value and its
-        unit (of runs with noise if the question has quantiles), error against the
-        paper's chain, tolerance, is_answer (the error is within the tolerance),
-        is_smallest (the first model that answers in every scene), and cost_s (median
-        time of all the model's answers [s]).
+        One row for each scene, question and model with the quantity of the question:
+        value and unit (from runs with noise if the question has quantiles), error against
+        the paper's chain, tolerance, is_answer (the error is within the tolerance),
+        is_smallest (the smallest model that answers in every scene), and cost_s (median
+        time in which the model gives all its answers [s]).
     """
     chains = {scene: Chain.from_slider(**slider) for scene, slider in sliders.items()}
     tasks = {

@@ -1,4 +1,4 @@
-"""Figure: the paper's six numbers are reproduced, and they are one draw of many."""
+"""Figure: the paper's six numbers are reproduced, but other draws give other numbers."""
 
 from collections.abc import Sequence
 
@@ -12,7 +12,7 @@ from precursors.figures import precursor_lengths, style
 from precursors.figures.style import Options
 
 HEIGHT_MM = 78.0
-WIDTH = 0.3  # of a bar; bars of the three loadings stand side by side
+WIDTH = 0.3  # of a bar, so that the bars of three loadings stand side by side
 TITLE: Options = {"fontsize": 8.6, "fontweight": "bold", "loc": "left"}
 OTHER = 0.4  # share of the colour of bars with another count than the paper's
 

@@ -11,8 +11,8 @@ from maegawa2010.studies.members import TOLERANCES, Study, gather, stack
 from maegawa2010.support.run_statistics import nine_tenths, share_interval
 
 # Half a unit of the last printed digit (Sect. 4 and the captions of Figs. 10-12), in SI
-# units. F_Z is left out because it only scales all forces; S and L because they enter
-# only through k, which E varies.
+# units. F_Z is left out because it only scales all forces. S and L are left out because
+# they act only through k, which E varies.
 HALF_A_DIGIT = {
     "mu_s": 0.005,
     "mu_k": 0.005,
@@ -74,11 +74,12 @@ def digits_table(
     Returns
     -------
     DataFrame
-        One row per scene, quantity and question. as_printed: does a slider have the
-        paper's value? k of n sliders do; share has an interval from low to high; q05,
-        q50 and q95 are quantiles of the numbers drawn. Scene all: do the three mu_sapp
-        of a slider agree to one unit of the last digit (same_mu_sapp; the numbers are
-        their largest differences), and are all six numbers the paper's (all_six)?
+        One row per scene, quantity and question. The answer is yes for k of n sliders;
+        their share has an interval from low to high. Question as_printed: does a slider
+        have the paper's value? q05, q50 and q95 are quantiles of the quantity. Scene all
+        has two questions. all_six: are all six numbers the paper's? same_mu_sapp: do the
+        three mu_sapp of a slider agree to one unit of the last digit? The quantiles are
+        then those of their largest difference.
     """
     draws = members[members["draw"] > 0].pivot_table(
         index="draw", columns="scene", dropna=False

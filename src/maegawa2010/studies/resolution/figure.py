@@ -11,7 +11,7 @@ from precursors.figures.style import Options
 
 HEIGHT_MM = 66.0
 FEWEST = 10  # blocks that are drawn; with fewer, numbers jump from one N to the next
-AGREES = 0.005  # less than so far from mu_k
+AGREES = 0.005  # the title says "near mu_k" below this distance
 MEDIAN: Options = {"linewidth": 1.2}
 ALL_EVENTS: Options = {"linestyle": "--"}
 RANGE: Options = {"linestyle": "none", "marker": "|", "markersize": 8}
@@ -22,9 +22,9 @@ EXPERIMENT: Options = {
     "clip_on": False,
 }
 NAMES = {-1: "trailing edge", 0: "uniform load", 1: "leading edge"}
-BESIDE = 1.04  # of three loadings at one N, in times of N
-# Of the axis of N, in times of the largest, for the names at the ends of lines; these
-# stand at least so far apart, of the height of the panel.
+BESIDE = 1.04  # factor on N by which bars of different loadings stand apart
+# Names stand at the ends of lines: the axis goes on to this multiple of the largest N. The
+# names are at least `APART` of the height of the panel apart.
 END_ROOM = 4.5
 APART = 0.075
 
@@ -32,7 +32,7 @@ APART = 0.075
 def draw(table: pd.DataFrame, papers_n: int, mu_k: float) -> Figure:
     """Draw events and mu_sapp against N; dotted lines mark the paper's N and mu_k.
 
-    Of resolution.csv, medians are lines, and 5 to 95 % of the runs are bars.
+    `table` is resolution.csv. Lines are medians, and bars contain 5 to 95 % of the runs.
     """
     largest = table["n_blocks"].max()
     table = table[table["n_blocks"] >= min(FEWEST, largest)]
@@ -86,14 +86,13 @@ def _draw_numbers(axes: Axes, rows: pd.DataFrame) -> None:
 
 
 def _name_ends(axes: Axes, medians: pd.DataFrame) -> None:
-    """Write the loading at the end of each line, names that would overlap above each
-    other."""
+    """Write the loading at the end of each line; names that would overlap move apart."""
     ends = medians.iloc[-1].sort_values()
     points = [(medians.index[-1], value) for value in ends]
     axes.autoscale_view()
     to_panel = axes.transData + axes.transAxes.inverted()
     x, y = to_panel.transform(points).T
-    # Each moves up to leave the one below it room, and then all of them back a little.
+    # Move each name up from the one below it, and then all names down by the mean shift.
     step = APART * np.arange(len(y))
     up = np.maximum.accumulate(y - step) + step
     heights = up - np.mean(up - y)
@@ -105,7 +104,7 @@ def _name_ends(axes: Axes, medians: pd.DataFrame) -> None:
             transform=axes.transAxes,
             va="center",
             color=style.theta_color(theta),
-            # No dotted line goes through a name.
+            # A white background hides dotted lines behind a name.
             bbox={"facecolor": "white", "linewidth": 0, "pad": 0},
         )
 

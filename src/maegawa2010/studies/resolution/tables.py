@@ -22,16 +22,17 @@ from precursors.solver.simulate import simulate
 
 CHAIN_OF_ROW = ["scene", "n_blocks"]
 ROW = [*CHAIN_OF_ROW, "quantity"]  # columns that name a row of resolution.csv
-# Of the first run made again, as far as it is predictable (`UNPREDICTED_S`): counts are
-# the same, times to twice the error, loads to five times what the drive adds in it.
+# Tolerances of the first run when it is made again, while it is predictable to
+# UNPREDICTED_S = 1e-6 s: none for counts, twice this error for times, and for F_X/F_Z five
+# times the amount that the drive adds in 1e-6 s.
 OF_FIRST = {
     "events_to_global_slip": 0.0,
     "events_counted": 0.0,
     "mu_sapp": 1e-6,
     "global_slip_s": 2e-6,
 }
-ROUNDING = 1e-12  # of medians, and what follows from them
-WHOLE = 1e-6  # of a study that is predictable to its end, made again whole
+ROUNDING = 1e-12  # tolerance of differences that are computed again from medians
+WHOLE = 1e-6  # tolerance of the study of noise, whose runs are predictable to the end
 
 
 def resolution_study(
@@ -39,10 +40,10 @@ def resolution_study(
     duration: float,
     settings: Mapping[str, Any],
 ) -> Study:
-    """Chains of more and more blocks with the loading of some scenes.
+    """Chains with the loadings of the scenes and other numbers of blocks.
 
-    All have noise in the normal loads of Eq. 7. Those with as many blocks as the scene
-    are in `noise_study`.
+    All have noise in the normal loads of Eq. 7. Chains with the scene's own number of
+    blocks are in `noise_study`.
     """
     blocks: list[dict[str, Any]] = []
     sizes = list(zip(settings["n_blocks"], settings["runs"], strict=True))
@@ -69,14 +70,20 @@ def resolution_tables(
 
 
 def with_first(table: pd.DataFrame, study: Study) -> pd.DataFrame:
-    """resolution.csv with what the first run with noise of each chain gives until it can
-    no longer be made again: known_s, and `first`, the number of `so_far`."""
+    """resolution.csv with the beginning of the first run with noise of each chain.
+
+    The beginning ends at known_s, until when any machine can make it again. `first` has
+    its numbers (`so_far`).
+    """
     return table.merge(first_runs(study), how="left", on=ROW)
 
 
 def first_runs(study: Study, known_s: pd.Series | None = None) -> pd.DataFrame:
-    """A row for each number of the first run with noise of each chain; known_s is given
-    by scene and n_blocks, or comparisons."""
+    """A row for each number of the beginning of each chain's first run with noise.
+
+    The beginning ends at `known_s`, given by scene and n_blocks. Without `known_s` we
+    compute its end.
+    """
     rows = []
     for member in study.members.query("draw == 1").to_dict("records"):
         chain, key = chain_of(member, study.seed), (member["scene"], member["n_blocks"])
@@ -94,9 +101,12 @@ def first_runs(study: Study, known_s: pd.Series | None = None) -> pd.DataFrame:
 def check(
     tables: Mapping[str, pd.DataFrame], study: Study, noise: Mapping[str, pd.DataFrame]
 ) -> pd.DataFrame:
-    """Compare the committed tables, by name, with the first run of each chain made
-    again, and the differences with the medians; `noise` has the tables of the study of
-    noise of this build, which are those of the scenes' own N."""
+    """Compare the committed tables with the first runs made again, with their own medians,
+    and with the study of noise.
+
+    `tables` are the committed tables by name. `noise` has the tables of this build's study
+    of noise, which has the scenes' own N; it may be empty.
+    """
     medians, differences = tables["resolution"], tables["resolution_differences"]
     known_s = medians.dropna(subset="first").groupby(CHAIN_OF_ROW)["known_s"].first()
     again = first_runs(study, known_s)

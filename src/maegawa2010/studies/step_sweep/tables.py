@@ -53,8 +53,8 @@ def row(method: str, step: float, run: Record, truth: Record) -> dict[str, objec
     -------
     dict
         method; step_s [s], NaN for the exact solver; events_counted, the number of
-        events in Fig. 13; transitions_right, how many are right before the first wrong
-        one; and transitions_true, how many there are.
+        events in Fig. 13; transitions_right, the number of transitions before the first
+        wrong one; and transitions_true, the number of transitions of `truth`.
     """
     return {
         "method": method,

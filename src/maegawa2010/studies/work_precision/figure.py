@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 from precursors.figures import style
 
 HEIGHT_MM = 74.0
-# Short names, and where they stand beside the most accurate point of their curve:
-# offset [pt], side. Another method has its label.
+# Short name of a method, and its place beside the most accurate point of the curve:
+# offset [pt] and alignment. Other methods have their labels.
 NAMES: dict[str, tuple[str, tuple[float, float], str]] = {
     "exact": ("exact solver", (7, -10), "left"),
     "heyoka": ("heyoka", (6, 0), "left"),
@@ -19,8 +19,8 @@ NAMES: dict[str, tuple[str, tuple[float, float], str]] = {
     "rk4_located": ("RK4,\nlocated", (5, -6), "left"),
     "rk4": ("RK4", (8, -8), "left"),
 }
-INK = 0.67  # of a method's colour, for its name: a contrast of 4.5 with white at least
-SHOWN_TIME_S = 2.7  # doubles near the first global slip are np.spacing of this apart
+INK = 0.67  # names have this share of the colour: a contrast of at least 4.5 with white
+SHOWN_TIME_S = 2.7  # near the first global slip; the spacing of doubles is that of this
 
 
 def draw(table: pd.DataFrame, compared: str | None = None) -> Figure:
@@ -29,8 +29,8 @@ def draw(table: pd.DataFrame, compared: str | None = None) -> Figure:
 
     `table` is work_precision.csv. A method without a colour of its own is left out. A
     tick at the top is a setting that gives a wrong sequence of transitions. An arrow
-    shows how many times as long as the exact solver another method takes, `compared`,
-    at its setting of `fastest_as_accurate`.
+    shows how many times as long as the exact solver the method `compared` takes, with
+    its setting of `fastest_as_accurate`.
     """
     is_shown = table["color"].ne(style.GREY)
     milliseconds = 1e3 * table["seconds"]
@@ -49,9 +49,11 @@ def draw(table: pd.DataFrame, compared: str | None = None) -> Figure:
 
 
 def fastest_as_accurate(table: pd.DataFrame, method: str) -> pd.Series:
-    """The row of a method that is compared with the exact solver: of the settings whose
-    error is no larger than the exact solver's, the one that takes the least time; if
-    there is none, the most accurate setting that finds every transition."""
+    """The row of a method that is compared with the exact solver.
+
+    It is the fastest setting whose error is no larger than the exact solver's. If there
+    is none, it is the most accurate setting that finds every transition.
+    """
     (limit,) = table["time_error_s"][table["method"] == "exact"]
     settings = table[table["method"].eq(method) & _is_right(table)]
     errors = settings["time_error_s"]

@@ -26,21 +26,21 @@ if TYPE_CHECKING:
     from precursors.proof import Certificate
 
 UNTIL = "global slip"
-# Rounds of which a time is the median. A call that takes longer than `LONG` [s] is timed
-# once, as it averages over the machine's other load by itself.
+# A time is the median of so many rounds. A call that takes longer than `LONG` [s] is
+# timed once, because it averages over the machine's other load by itself.
 ROUNDS = 5
 LONG = 0.05
-LONGEST = 5.0  # s, of a call: with a setting that takes longer, a method is given up
-# What a method compiles, loads or builds for a chain and a value, it does in a run that
-# is so short [s].
+LONGEST = 5.0  # s; a setting with a longer call is left out, and so are tighter ones
+# Duration [s] of a run before the timing, in which a method compiles, loads and builds
+# what it needs for a chain and a value.
 WARM_UP = 0.4
-SHORTEST = 0.0025  # s, of a round: see `timing.measure`
-# The proved chains by theta, and the ends of runs, of which beside_heyoka.csv is.
+SHORTEST = 0.0025  # s, see `timing.measure`
+# beside_heyoka.csv has the runs of these proved chains (by theta) to each of these ends.
 PROBLEMS = {"0": "uniform", "-5/6": "trailing", "5/6": "leading"}
 ENDS: dict[str, Until] = {"to the first global slip": "global slip", "10 s": None}
 DURATION = 10.0  # s, the limit where a run ends by itself
-# On another machine: a run with the right transitions takes other steps, and has another
-# error, by a few per cent and by rounding.
+# Tolerances of a run on another machine: its number of evaluations and its error differ
+# by a few per cent, and its error also by rounding.
 RELATIVE = 0.05
 ROUNDING_S = 1e-12
 ROUNDING_N = 1e-12
@@ -74,12 +74,11 @@ def measure_methods(
 ) -> pd.DataFrame:
     """Time methods with several settings, and compare each run with the truth.
 
-    A run ends with the first global slip, as the truth does, and at the latest after a
-    `duration` [s]; of a run that breaks off, what there is counts. `values` of each
-    method's setting go from loose to tight. A time is the median of some rounds in
-    which methods take turns, after a short warm-up; a call that takes longer than
-    `long` [s] is timed once. A method is given up at a value with which a call takes
-    longer than `longest` [s].
+    A run ends with the first global slip, as the truth does, or after `duration` [s]. A
+    run that breaks off counts as far as it got. `values` of each method's setting go from
+    loose to tight. A time is the median of some rounds in which methods take turns, after
+    a short warm-up; a call that takes longer than `long` [s] is timed once. A setting with
+    a call longer than `longest` [s] is left out, and so are the method's tighter settings.
 
     Returns
     -------
@@ -129,8 +128,8 @@ def _row(
 
 
 def errors_of(name: str, run: Record, truth: Truth) -> Iterator[tuple[str, str, float]]:
-    """Quantity, unit and value of beside_heyoka.csv: how far a run of a solver is
-    right."""
+    """Yield quantity, unit and value of beside_heyoka.csv for a run of a solver: its right
+    transitions and its largest errors."""
     agreement = compare(run, truth)
     right = f"transitions of {name} right, of {agreement.transitions_true}"
     yield right, "1", agreement.transitions_right
@@ -139,21 +138,24 @@ def errors_of(name: str, run: Record, truth: Truth) -> Iterator[tuple[str, str, 
 
 
 def truth_of(theta: str, end: str) -> Truth:
-    """The proved transitions of the paper's slider, to a key of `ENDS`."""
+    """The proved transitions of the paper's slider up to an end (a key of `ENDS`)."""
     truth = solution(PROBLEMS[theta])
     return truth if ENDS[end] is None else truth.until_global_slip()
 
 
 def with_rightness(table: pd.DataFrame) -> pd.DataFrame:
-    """With a column is_right: whether a run has all true transitions, and no other."""
+    """Add the column is_right: whether a run has all true transitions, and no other."""
     true = table["transitions_true"]
     right, all_of = table["transitions_right"], table["transitions_found"]
     return table.assign(is_right=right.eq(true) & all_of.eq(true))
 
 
 def check(tables: Mapping[str, pd.DataFrame], measured: pd.DataFrame) -> pd.DataFrame:
-    """Compare the committed tables, by name, with what this build has `measured`, but for
-    the seconds, and with runs of the exact solver."""
+    """Compare the committed tables with `measured`, the table of this build, and with runs
+    of the exact solver.
+
+    `tables` are the committed tables by name. Computing times are not compared.
+    """
     speed, row = tables["speed"], ["method", "value"]
     known = with_rightness(speed[row].merge(measured, on=row))
     right = known[known["is_right"]]
