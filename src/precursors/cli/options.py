@@ -229,6 +229,11 @@ def _add_chain(command: Parser) -> None:
         help=f"distance between the load cells [m] ({CELL_SPACING:g})",
     )
     _add_numbers(add, {name: f"{CHAIN[name]} ({SLIDER[name]:g})" for name in CHAIN})
+    _add_run(command)
+
+
+def _add_run(command: Parser) -> None:
+    """Add the options that say when a run ends."""
     add = command.add_argument_group(
         "the run", "starts from rest, with every spring at its natural length"
     ).add_argument
