@@ -105,7 +105,7 @@ def test_until_global_slip_stops_there_or_at_the_duration():
         ),
         (
             {"start_positions": [0.0] * 9},
-            "start_positions must have shape (10,), one [m] per block",
+            "start_positions must have shape (10,), one number [m] per block",
         ),
         (
             {"start_velocities": [math.inf] * 10},

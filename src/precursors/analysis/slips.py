@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from precursors.model.chain import Chain
 from precursors.solver.run import Record
 
-# Share of the mean load below which `describe_light_blocks` warns of a block.
+# Share of the mean normal load below which `describe_light_blocks` warns of a block.
 LIGHT = 0.01
-# Columns of `slip_table` that identify the slider, and the attributes of its chain.
+# Columns of `slip_table` that identify the slider: name and attribute of `Chain`.
 OF_SLIDER = {
     "theta": "theta",
     "n_blocks": "n_blocks",
@@ -53,7 +53,7 @@ def slip_events_by_definition(run: Record) -> list[Slip]:
     """Return the slip events; this code defines them, and `slip_rows` is faster.
 
     An event ends when the last sliding block stops, unless a block is released at the
-    same instant. Blocks with almost no load (`Chain.bears_load`) are ignored, with two
+    same instant. Blocks with almost no normal load (`Chain.bears_load`) are ignored, with two
     exceptions. `front` and `n_simultaneous` include them if all others slide at the
     same instant; `n_slid` includes them if all others slide during the event.
     """
@@ -107,7 +107,7 @@ def slip_rows(run: Record) -> NDArray[np.void]:
     bears_load = run.chain.bears_load
     n_loaded = bears_load.sum()
     slides_after = (run.transitions["mode"] != 0) & bears_load[block - 1]
-    # Sort the transitions by block. Did the same block slide after the previous one?
+    # Sort the transitions by block. Did a block slide after its previous transition?
     order = np.argsort(block, kind="stable")
     is_same_block = np.diff(block[order]) == 0
     slid_before = np.zeros(len(block), dtype=bool)
@@ -156,7 +156,7 @@ def rows_of(slips: NDArray[np.void], chain: Chain) -> NDArray[np.void]:
 def slip_table(run: Record) -> pd.DataFrame:
     """Return all slip events of a run, with units in the names of the columns.
 
-    The first columns are those of `find_slips`. The column `counted` is true if Fig. 13
+    The first columns are the fields of `Slip`. The column `counted` is true if Fig. 13
     counts the event, and `front_length_m` is L_p. The last columns identify the slider:
     theta (NaN if unknown), n_blocks, normal_load_N (F_Z), slider_length_m (L) and mu_k.
     """
@@ -182,8 +182,8 @@ def find_slips(run: Record) -> pd.DataFrame:
 def find_precursors(slips: pd.DataFrame) -> pd.DataFrame:
     """Return the events that Fig. 13 counts: the precursors and the first global slip.
 
-    Short events are left out. An event is short if an earlier one has a farther front.
-    Without a global slip, all events that are not short are returned.
+    Events whose front is not as far as that of an earlier event are left out.
+    Without a global slip, all others are returned.
     """
     return slips[counted(slips)]
 

@@ -22,8 +22,8 @@ from precursors.solver.run import Run
 __all__ = ["MAX_TRANSITIONS", "TransitionLimitError", "simulate"]
 
 MAX_TRANSITIONS = 10_000_000
-# Chains of more blocks are allowed only a tenth of `MAX_TRANSITIONS`, because a
-# transition takes about ten times as long if more blocks slide at once.
+# Chains of more blocks than this are allowed a tenth of `MAX_TRANSITIONS`, because each
+# of their transitions takes about ten times as long.
 MANY_BLOCKS = 500
 # The kernel runs in short windows of time while any block slides. If the blocks hardly
 # ever rest, this limit ends the run, for N = 10 after some 10 minutes of computing.
@@ -51,7 +51,7 @@ def simulate(
         Stop at the end of the first event in which all blocks slide at the same
         instant. Blocks with almost no load do not count (`Chain.bears_load`).
     start_positions, start_velocities : array_like, shape (N,), optional
-        Positions [m] relative to springs at natural length, and velocities [m/s], at
+        Displacements [m] from springs at natural length, and velocities [m/s], at
         time 0; zero by default.
     max_transitions : int, optional
         Largest number of transitions; by default ten million, or one million for more
@@ -102,7 +102,8 @@ def checked_start(
     start = block_array(name, values, unit)
     if start.shape != (chain.n_blocks,):
         raise ValueError(
-            f"{name} must have shape ({chain.n_blocks},), one [{unit}] per block, but have {start.shape}"
+            f"{name} must have shape ({chain.n_blocks},), one number [{unit}] per block, "
+            f"but have {start.shape}"
         )
     if not (abs(start) <= LARGEST).all():
         raise ValueError(

@@ -98,4 +98,4 @@ rule balance:
     localrule: True
 
 
-RESULTS.append(rules.balance.input)  # so that `all` makes it
+RESULTS.append(rules.balance.input)  # files that `all` makes

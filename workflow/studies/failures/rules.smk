@@ -44,4 +44,4 @@ rule failures:
     localrule: True
 
 
-RESULTS.append(rules.failures.input)  # so that `all` makes it
+RESULTS.append(rules.failures.input)  # files that `all` makes

@@ -120,4 +120,4 @@ rule certify_scene:
         "take_certificates.py"
 
 
-RESULTS.append(rules.horizon.input)  # so that `all` makes it
+RESULTS.append(rules.horizon.input)  # files that `all` makes

@@ -20,4 +20,4 @@ rule models:
     localrule: True
 
 
-RESULTS.append(rules.models.input)  # so that `all` makes it
+RESULTS.append(rules.models.input)  # files that `all` makes

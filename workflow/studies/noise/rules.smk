@@ -40,4 +40,4 @@ rule noise:
     localrule: True
 
 
-RESULTS.append(rules.noise.input)  # so that `all` makes it
+RESULTS.append(rules.noise.input)  # files that `all` makes

@@ -69,4 +69,4 @@ rule printed_digits:
     localrule: True
 
 
-RESULTS.append(rules.printed_digits.input)  # so that `all` makes it
+RESULTS.append(rules.printed_digits.input)  # files that `all` makes

@@ -105,4 +105,4 @@ rule resolution:
     localrule: True
 
 
-RESULTS.append(rules.resolution.input)  # so that `all` makes it
+RESULTS.append(rules.resolution.input)  # files that `all` makes

@@ -47,4 +47,4 @@ rule step_sweep:
     localrule: True
 
 
-RESULTS.append(rules.step_sweep.input)  # so that `all` makes it
+RESULTS.append(rules.step_sweep.input)  # files that `all` makes

@@ -125,4 +125,4 @@ rule work_precision:
     localrule: True
 
 
-RESULTS.append(rules.work_precision.input)  # so that `all` makes it
+RESULTS.append(rules.work_precision.input)  # files that `all` makes
