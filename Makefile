@@ -61,7 +61,7 @@ article: $(READY)
 	$(BIN)/snakemake --quiet rules host -c1 --directory full --configfile config.yaml workflow/full.yaml -- article
 
 lint: $(DEV)
-	$(BIN)/ruff check . && $(BIN)/ruff format --check . && $(BIN)/snakefmt --check Snakefile workflow && $(BIN)/mypy && $(BIN)/lint-imports
+	$(BIN)/ruff check . && $(BIN)/ruff format --check . && $(BIN)/snakefmt --check Snakefile workflow docs/examples/*.smk && $(BIN)/mypy && $(BIN)/lint-imports
 
 lock: $(READY)
 	$(BIN)/uv pip compile $(LOCK) --extra workflow --extra proof --extra peers --extra paper --extra build -o requirements.lock

@@ -85,5 +85,5 @@ def test_a_row_that_is_missing_is_named():
 def test_a_median_that_was_changed_by_hand_is_refused(published):
     table, _ = published
     table.write_text(table.read_text().replace("0.47", "0.45"))
-    with pytest.raises(ValueError, match=r"loads\.csv has not the checksum"):
+    with pytest.raises(ValueError, match=r"loads\.csv does not have the checksum"):
         handed_on(published, compared_with())

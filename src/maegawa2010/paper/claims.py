@@ -262,10 +262,10 @@ def first_global_slip_is_at_the_largest_load(t: Tables) -> Finding:
 @of_claim
 def short_events(t: Tables) -> Finding:
     """Events before the first global slip that Fig. 13 leaves out."""
-    every, counted = quantity("events_to_global_slip"), quantity("events_counted")
 
     def short(runs: pd.DataFrame) -> pd.DataFrame:
-        return every(runs) - counted(runs)
+        every = quantity("events_to_global_slip")(runs)
+        return every - quantity("events_counted")(runs)
 
     for_all = in_ensembles(t, short, lambda n: n > 0)
     for_one = in_ensembles(t, short, lambda n: (n > 0).any(axis=1).to_frame())

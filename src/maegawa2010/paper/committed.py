@@ -77,7 +77,7 @@ def hand_on(
     Raises
     ------
     ValueError
-        In one line: a row differs, or a table has not the checksum in provenance.csv.
+        In one line: a row or the checksum of a table differs from the committed one.
     """
     for wrong in comparison[~comparison["agrees"]].itertuples():
         raise ValueError(
@@ -89,7 +89,7 @@ def hand_on(
         content = read_bytes(path)
         if hashlib.sha256(content).hexdigest() != sums.get(path.stem):
             raise ValueError(
-                f"{path} has not the checksum in provenance.csv: restore it, or run"
+                f"{path} does not have the checksum in provenance.csv: restore it, or run"
                 " make article"
             )
         write_whole(output[path.stem], content)

@@ -69,8 +69,8 @@ def test_the_curve_is_grey_where_slips_are_not_predicted():
 
 
 def test_long_runs_have_the_mean_that_the_balance_says():
-    shorter = {"n_blocks": [10], "seconds": [25], "mu_k": [0.1], "mu_k_seconds": 100}
-    few = SETTINGS["runs"] | shorter
+    shorter = {"n_blocks": [10], "seconds": [25], "mu_k": [0.1, 0.3]}
+    few = SETTINGS["runs"] | shorter | {"mu_k_seconds": 100}
     rows = long.runs_table(CONFIG["chain"], few, SEED)
     there = made("balance_runs")
     for table in (rows, there):

@@ -30,7 +30,7 @@ CALL = 2.0**-8
 SHORT_CALL = 2.0**-11
 
 
-def test_the_full_chart_has_more_values_the_exact_solver_first():
+def test_the_full_chart_has_more_values_with_exact_solver_first():
     full, default = (charted_values(full) for full in (True, False))
     assert next(iter(full.items())) == next(iter(default.items())) == ("exact", (0.0,))
     for name in METHODS:
